@@ -37,12 +37,14 @@ enum class family {
     slow,
     memory,
     rate,
-    state
+    state,
+    reading
 };
-inline constexpr std::array<std::string_view, 24> family_names{
-    "single",   "weak",     "wide",       "pose",        "pair",   "outliers", "outside", "none",
-    "alias",    "askew",    "instrument", "experiments", "bounds", "strong",   "onset",   "three",
-    "backlash", "friction", "episode",    "noise",       "slow",   "memory",   "rate",    "state"};
+inline constexpr std::array<std::string_view, 25> family_names{
+    "single", "weak",  "wide",     "pose",       "pair",        "outliers", "outside",
+    "none",   "alias", "askew",    "instrument", "experiments", "bounds",   "strong",
+    "onset",  "three", "backlash", "friction",   "episode",     "noise",    "slow",
+    "memory", "rate",  "state",    "reading"};
 
 /// The first of them are drawn in every round, the others where they are asked for.
 inline constexpr std::size_t usual_families = 16;
@@ -87,6 +89,8 @@ struct campaign {
     channels noise_of_value{};         // noise reaches so much of what is shown besides its bound
     channels jitter{};                 // time stamps are off by so many seconds, at most
     channels slow{};                   // noise goes together for so many seconds
+    channels quantum{};                // readings are whole multiples of this; 0: of any size
+    double lowest = 0;                 // of what is read modulo something
     std::vector<std::string> effects;  // names, empty for none
     std::string effects_text = "none"; // with parameters, as in the labels
     std::string noise;                 // the shape of the noise

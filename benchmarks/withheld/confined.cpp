@@ -63,6 +63,8 @@ std::optional<bool> is_confined_to(label const& truth, recording const& data, js
     auto const scenarios = names_in(member(part, "scenarios"));
     auto const channel = text_of(member(part, "channel"));
     if (truth.family == "bounds") return truth.names() == names{"bounds_" + channel};
+    if (truth.family == "reading" && truth.names() != names{"wraps_psi"})
+        return truth.names() == names{"steps_" + channel} && member(part, "steps").is_object();
     if (truth.family == "slow")
         return truth.names() == names{"slow_" + channel} && member(part, "correlated").is_object();
     if (truth.family == "noise") {

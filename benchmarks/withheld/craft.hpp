@@ -69,7 +69,13 @@ struct instrument_faults {
     channels drift{};                            // per s
     channels lag{};                              // s: low-pass of first order, settled at the start
     channels late{};                             // s: what is shown is so old; the start before
+    channels modulus{};                          // what is read is what is left modulo this
 };
+
+/// By how much a reading is from what it should be, modulo something; 0: nothing.
+inline double apart(double reading, double model, double modulus) {
+    return modulus > 0 ? std::remainder(reading - model, modulus) : reading - model;
+}
 
 /// Samples at increasing times, linear between them, constant outside.
 struct polyline {

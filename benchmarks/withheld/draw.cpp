@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -181,6 +182,22 @@ void grow_noise(std::size_t channel, bool jitters, random_source& random, campai
     c.effects_text = name + '(' + six_digits(size) + ')';
 }
 
+/// Readings that are too coarse for their bound.
+void coarsen(std::size_t channel, random_source& random, campaign& c) {
+    c.quantum[channel] = rounded(error_bound[channel] * random.uniform(1.2, 4));
+    auto const name = "steps_" + std::string{channel_names[channel]};
+    c.effects = {name};
+    c.effects_text = name + '(' + six_digits(c.quantum[channel]) + ')';
+}
+
+/// A heading that is read within one turn, from some angle on.
+void wrap_heading(random_source& random, campaign& c) {
+    c.true_instruments.modulus[5] = 2 * std::numbers::pi;
+    c.lowest = rounded(random.uniform(-1.2, -0.4));
+    c.effects = {"wraps_psi"};
+    c.effects_text = "wraps_psi(" + six_digits(c.true_instruments.modulus[5]) + ')';
+}
+
 /// Beyond the prior that it is diagnosed over.
 void draw_excess(effect const& which, random_source& random, effect_values& e) {
     bool first = true;
@@ -263,6 +280,12 @@ bool draw_other(std::uint64_t seed, std::size_t n, random_source& random, campai
     case family::slow:
         slow_noise(dealt(deck, n, channel_count), random, c);
         return true;
+    case family::reading:
+        if (n % 2 == 0)
+            coarsen(dealt(deck, n / 2, channel_count), random, c);
+        else
+            wrap_heading(random, c);
+        return true;
     case family::alias: // the fourth has no effect of the catalogue
         if (n % 4 != 3) return false;
         if (n % 8 == 7) widen_noise(dealt(deck, n / 8, channel_count), random.uniform(1.3, 1.7), c);
@@ -283,6 +306,7 @@ void draw_effects(std::uint64_t seed, std::size_t n, double size, random_source&
     c.noise_of_value.fill(0);
     c.jitter.fill(0);
     c.slow.fill(0);
+    c.quantum.fill(0);
     c.effects.clear();
     c.effects_text = "none";
     for (auto& s : c.scenarios) s.gusts.clear();
@@ -332,6 +356,7 @@ bool matters(campaign const& c, double size) {
         return std::min(size, 1.0) * (offset ? 1.8 : 3.0) / (c.kind == family::weak ? 3 : 1);
     };
     if (c.kind == family::noise) return largest_growth(c) >= 2;
+    if (c.kind == family::reading) return c.quantum != channels{} || heading_passes(c, c.lowest);
     // Nothing to wait for: the model is right, and noise alone may break bounds.
     bool const right = c.effects.empty() || c.bound_factor != channels{1, 1, 1, 1, 1, 1};
     if (right) return true;

@@ -22,8 +22,9 @@ std::vector<std::size_t> channels_of(std::string_view group) {
 }
 
 std::string instrument_of(std::string_view name) {
-    static constexpr std::array<std::string_view, 9> heads{
-        "lagging", "late", "drift", "askew", "lever", "bounds", "jitter", "growing", "slow"};
+    static constexpr std::array<std::string_view, 11> heads{
+        "lagging", "late",    "drift", "askew", "lever", "bounds",
+        "jitter",  "growing", "slow",  "steps", "wraps"};
     auto const at = name.find('_');
     if (at == std::string_view::npos) return {};
     bool const known = std::find(heads.begin(), heads.end(), head_of(name)) != heads.end();
@@ -33,8 +34,8 @@ std::string instrument_of(std::string_view name) {
 
 bool is_noise(std::string_view name) {
     auto const head = head_of(name);
-    return !instrument_of(name).empty() &&
-           (head == "bounds" || head == "jitter" || head == "growing" || head == "slow");
+    return !instrument_of(name).empty() && (head == "bounds" || head == "jitter" ||
+                                            head == "growing" || head == "slow" || head == "steps");
 }
 
 std::vector<std::string_view> const& askew_kinds() {
@@ -59,6 +60,7 @@ bool set_instrument(instrument_faults& all, std::string const& name,
         if (head == "lagging") all.lag[k] = values.at(0);
         if (head == "late") all.late[k] = values.at(0);
         if (head == "drift") all.drift[k] = values.at(0);
+        if (head == "wraps") all.modulus[k] = values.at(0);
     }
     if (name == "askew_uv") all.velocity_turn = values.at(0);
     if (name == "askew_xy") all.position_turn = values.at(0);
@@ -113,6 +115,7 @@ std::optional<named_fault> fault_in(std::string const& name) {
             if (f.in_brackets.size() > 1) add("d_" + y);
     }
     if (f.kind == "sensor_rotation") add("a");
+    if (f.kind == "sensor_wrap") add("T");
     if (f.kind.ends_with("_arm")) {
         add("a");
         add("b");
@@ -124,7 +127,8 @@ std::string drawn_name(std::string const& name) {
     static std::map<std::string, std::string> const heads{{"sensor_latency", "late_"},
                                                           {"sensor_lag", "lagging_"},
                                                           {"sensor_drift", "drift_"},
-                                                          {"sensor_rotation", "askew_"}};
+                                                          {"sensor_rotation", "askew_"},
+                                                          {"sensor_wrap", "wraps_"}};
     auto const f = fault_in(name);
     if (!f) return name;
     auto const in = [&f](std::vector<std::string> const& those) { return f->in_brackets == those; };
@@ -162,6 +166,7 @@ bool set_fault(instrument_faults& all, named_fault const& f,
         if (f.kind == "sensor_latency") all.late[seen[n]] = values[0];
         if (f.kind == "sensor_lag") all.lag[seen[n]] = values[0];
         if (f.kind == "sensor_drift") all.drift[seen[n]] = values[n];
+        if (f.kind == "sensor_wrap") all.modulus[seen[n]] = values[0];
     }
     bool const velocities = seen == std::vector<std::size_t>{0, 1};
     if (!velocities && seen != std::vector<std::size_t>{3, 4}) return seen.size() == 1;

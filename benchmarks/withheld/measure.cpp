@@ -44,6 +44,15 @@ double largest_deviation(campaign const& c, effect_values const& e, foreign_valu
     return most;
 }
 
+bool heading_passes(campaign const& c, double angle) {
+    return std::any_of(c.scenarios.begin(), c.scenarios.end(), [&](auto const& s) {
+        if (s.plan.holdout) return false;
+        auto const now = readings(world_of(c, s), s.initial, s.plan.sample_times, 5e-3);
+        return std::any_of(now.begin(), now.end(),
+                           [angle](channels const& y) { return y[5] < angle - 0.2; });
+    });
+}
+
 double largest_growth(campaign const& c) {
     double most = 0;
     for (auto const& s : c.scenarios) {
@@ -80,7 +89,10 @@ double inflation_at_truth(campaign const& c, bool with_effects, part which) {
         std::vector<double> misfits;
         for (std::size_t i = 0; i < model.size(); ++i)
             for (std::size_t const k : c.channels_measured)
-                misfits.push_back(std::abs(s.value[i][k] - model[i][k]) / error_bound[k]);
+                misfits.push_back(
+                    std::abs(apart(s.value[i][k], model[i][k],
+                                   with_effects ? c.true_instruments.modulus[k] : 0)) /
+                    error_bound[k]);
         std::size_t const allowed = outlier_budget(c.outlier_fraction, misfits.size());
         most = std::max(most, inflation_of(misfits, allowed));
     }

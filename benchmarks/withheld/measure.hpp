@@ -17,6 +17,9 @@ double largest_deviation(campaign const& c, effect_values const& e, foreign_valu
 /// its own size.
 double largest_growth(campaign const& c);
 
+/// Whether the heading goes well beyond an angle below 0 in one of the fit scenarios.
+bool heading_passes(campaign const& c, double angle);
+
 /// At the true constants and starts: the factor by which all bounds must grow until the model with
 /// these effects explains the written data, outliers beyond the budget excepted. The true inflation
 /// of that model, a minimum, is at most this.

@@ -65,6 +65,14 @@ std::vector<double> slow_errors(std::vector<double> const& times, double seconds
     return result;
 }
 
+/// As the instrument reads it.
+double read(campaign const& c, std::size_t channel, double value) {
+    double const step = c.quantum[channel], modulus = c.true_instruments.modulus[channel];
+    if (step > 0) value = step * std::round(value / step);
+    if (modulus > 0) value -= modulus * std::floor((value - c.lowest) / modulus);
+    return six_decimals(value);
+}
+
 void add_noise(measured_scenario& s, std::vector<channels> const& truth, shape noise, double reach,
                channels const& factor, channels const& of_value, channels const& slow,
                random_source& random) {
@@ -129,6 +137,8 @@ void measure(campaign& c, random_source& random) {
         s.truth = readings(world_of(c, s), s.initial, s.plan.sample_times, careful_step);
         add_noise(s, shown(c, s, random), noise, reach, c.bound_factor, c.noise_of_value, c.slow,
                   random);
+        for (auto& y : s.value)
+            for (std::size_t k = 0; k < channel_count; ++k) y[k] = read(c, k, y[k]);
         add_outliers(s, c, random);
     }
 }

@@ -117,11 +117,13 @@ recording read_recording(fs::path const& folder) {
     return r;
 }
 
-std::vector<double> misfits(recorded_scenario const& s, std::vector<channels> const& model) {
+std::vector<double> misfits(recorded_scenario const& s, std::vector<channels> const& model,
+                            channels const& modulus) {
     std::vector<double> all;
     all.reserve(s.samples.size());
     for (auto const& m : s.samples)
-        all.push_back(std::abs(m.value - model[m.time][m.channel]) / m.error);
+        all.push_back(std::abs(apart(m.value, model[m.time][m.channel], modulus[m.channel])) /
+                      m.error);
     return all;
 }
 

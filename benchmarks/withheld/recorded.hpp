@@ -33,7 +33,9 @@ struct recording {
 recording read_recording(std::filesystem::path const& folder);
 
 /// |value - model|/error of each sample, given what the sensors of the model show.
-std::vector<double> misfits(recorded_scenario const& s, std::vector<channels> const& model);
+/// @param modulus  what is read is what is left modulo this; 0: all of it
+std::vector<double> misfits(recorded_scenario const& s, std::vector<channels> const& model,
+                            channels const& modulus = {});
 
 } // namespace withheld
 

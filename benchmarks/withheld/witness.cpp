@@ -90,7 +90,7 @@ double inflation_at(recording const& data, world const& all, json const& cause, 
         w.rudder = s.plan.rudder;
         auto const model =
             readings(w, start_of(s.plan, witness), s.plan.sample_times, careful_step);
-        auto missed = misfits(s, model);
+        auto missed = misfits(s, model, w.instruments.modulus);
         most = std::max(most, inflation_of(missed, s.budget));
     }
     return most;

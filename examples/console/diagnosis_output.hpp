@@ -258,6 +258,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
         std::cout << "  not told apart from it: " << joined(other) << "\n";
     }
     detail::print_holdout(d);
+    for (auto const& line : d.change.lines) std::cout << "  in a simulator: " << line << "\n";
     if (exit_code_of(d) == undecided)
         std::cout << "  ended early: what is open may be known with more time (--budget)\n";
     std::cout << "  " << report::duration_text(d.seconds)

@@ -49,9 +49,11 @@
 #include <sivid/measurement/quantisation.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
+#include <sivid/measurement/wrapped_readings.hpp>
 #include <sivid/model/best_settings.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/change/added_start.hpp>
+#include <sivid/model/change/changed_formulas.hpp>
 #include <sivid/model/change/copy_equations.hpp>
 #include <sivid/model/change/substitution.hpp>
 #include <sivid/model/closed_loop.hpp>

@@ -86,7 +86,10 @@ TEST_CASE("the fault of an instrument is found without a catalogue, and bounded"
          [](auto const& y, std::size_t k) { return std::clamp(y[k], -0.375, 0.375); }},
         {"sensor_latency(v)", 1, 0.25,
          [](auto const& y, std::size_t k) { return y[k - std::min<std::size_t>(k, 250)]; }},
-        {"sensor_lag(v)", 1, 0.25, slow(0.25)}};
+        {"sensor_lag(v)", 1, 0.25, slow(0.25)},
+        {"sensor_wrap(p)", 0, 0.75, [](auto const& y, std::size_t k) {
+             return y[k] - 0.75 * std::floor((y[k] + 0.1) / 0.75);
+         }}};
     for (auto const& one : all) {
         CAPTURE(one.name);
         auto const d = diagnosed(seen_by(one.channel, one.shows));
@@ -163,5 +166,45 @@ TEST_CASE("hulls of a low-pass contain it, alone and beside another effect") {
         CHECK(contains(hull[0], 1.0));
         CHECK(contains(hull[1], tau));
         if (both) CHECK(contains(hull[2], k));
+    }
+}
+
+TEST_CASE("a channel that wraps is found beside another effect") {
+    using namespace sivid::literals;
+    small_campaign::truth drag;
+    drag.missing = [](double, double v, double) { return -0.75 * std::abs(v) * v; };
+    auto const wraps = [](auto const& y, std::size_t k) {
+        return y[k] - 0.625 * std::floor((y[k] + 0.1) / 0.625);
+    };
+    auto const d = diagnosed(seen_by(0, wraps, drag),
+                             {effects::linear_damping("film", "v", {0_dec, 1_dec}),
+                              effects::quadratic_damping("drag", "v", "1/m", {0_dec, 2_dec})});
+    INFO(joined(d.effects));
+    REQUIRE(d.effects.size() == 2);
+    CHECK(d.effects[0] == "drag");
+    CHECK(d.effects[1].starts_with("sensor_wrap(p)~"));
+    auto const& c = d.causes.front();
+    CHECK(c.verdict == cause_verdict::explains);
+    REQUIRE(c.parameters.size() == 2);
+    REQUIRE((c.parameters[0].hull && c.parameters[1].hull));
+    CHECK(contains(*c.parameters[0].hull, 0.75));
+    CHECK(contains(*c.parameters[1].hull, 0.625));
+    CHECK(d.change.lines.front().starts_with("v' becomes v' - "));
+}
+
+TEST_CASE("readings that are too coarse for their bounds are told by their steps") {
+    for (bool const cut_off : {false, true}) {
+        auto const coarse = [cut_off](auto const& y, std::size_t k) {
+            return 0.15 * (cut_off ? std::floor(y[k] / 0.15) : std::round(y[k] / 0.15));
+        };
+        auto const d = diagnosed(seen_by(1, coarse));
+        CAPTURE(cut_off, joined(d.effects));
+        CHECK(d.answer == answer_kind::unexplained);
+        REQUIRE(d.confined.size() == 1);
+        CHECK(d.confined[0].channel == "v");
+        REQUIRE(d.confined[0].steps);
+        CHECK_THAT(d.confined[0].steps->size, WithinRel(0.15, 1e-9));
+        CHECK_FALSE(d.confined[0].grows);
+        CHECK((!d.where.empty() && d.where[0].name == "v"));
     }
 }

@@ -30,12 +30,22 @@ TEST_CASE("what stays unexplained is written with its size and place") {
     CHECK(json["remainder"]["where"][0]["name"] == "upper tank");
 }
 
+TEST_CASE("what a simulator has to take is written, with its symbols") {
+    diagnosis d;
+    d.change = {{"v' becomes v' - k * v"}, {{"film.k", "k"}}};
+    auto const json = nlohmann::json::parse(diagnosis_json(d, "cart"))["answer"];
+    CHECK(json["formulas"] == nlohmann::json{"v' becomes v' - k * v"});
+    CHECK(json["symbols"]["film.k"] == "k");
+    CHECK(nlohmann::json::parse(diagnosis_json({}, "cart"))["answer"]["formulas"].empty());
+}
+
 TEST_CASE("measurements that stand alone are written with their factor and its witness") {
     diagnosis d;
     d.confined.push_back(
         {"v", {"S1", "S3"}, interval(1.5, 2.25), {{{"k", "1/s", 3}}, {}}, {"held"}});
     d.confined.push_back({"", {"S2"}, interval(0, 4), {}, {}});
     d.confined[0].correlated = error_correlation{0.5, 0.25};
+    d.confined[1].steps = reading_steps{0.125, "m/s", true};
     d.confined[0].grows = noise_growth{noise_growth::with::rate,
                                        interval(0.5, 0.75),
                                        42,
@@ -53,6 +63,10 @@ TEST_CASE("measurements that stand alone are written with their factor and its w
     CHECK(json[0]["correlated"]["of_neighbours"] == 0.5);
     CHECK(json[0]["correlated"]["seconds"] == 0.25);
     CHECK(json[1]["correlated"].is_null());
+    CHECK(json[0]["steps"].is_null());
+    CHECK(json[1]["steps"]["size"] == 0.125);
+    CHECK(json[1]["steps"]["unit"] == "m/s");
+    CHECK(json[1]["steps"]["cut_off"] == true);
     CHECK(json[0]["grows"]["coefficient"] == nlohmann::json{0.5, 0.75});
     CHECK(json[0]["grows"]["likelier"] == 42);
     CHECK(json[0]["grows"]["witness"]["parameters"]["k"] == 5);

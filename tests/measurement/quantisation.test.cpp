@@ -24,6 +24,25 @@ TEST_CASE("the step of quantised readings is found") {
     }
 }
 
+TEST_CASE("a step is found though readings were written with few decimals") {
+    std::mt19937_64 random{4};
+    std::normal_distribution<double> noise{0, 1};
+    auto const written = [](double x, double place) { return std::round(x / place) * place; };
+    for (double const step : {5.0 / 1024, 0.0249739, 1.0 / 30}) {
+        for (double const place : {1e-4, 1e-6}) {
+            CAPTURE(step, place);
+            std::vector<double> values, fine;
+            for (int i = 0; i < 300; ++i) {
+                double const x = std::sin(0.02 * i) + 0.05 * noise(random);
+                values.push_back(written(step * std::round(x / step), place));
+                fine.push_back(written(x, place));
+            }
+            CHECK_THAT(quantisation_step(values), WithinRel(step, 1e-3));
+            CHECK(quantisation_step(fine) < 2 * place); // what they are written with, or nothing
+        }
+    }
+}
+
 TEST_CASE("the step need not occur as a difference") {
     CHECK_THAT(quantisation_step({0, 0.4, 1.0}), WithinRel(0.2, 1e-9));
     CHECK_THAT(quantisation_step({7, 7.6, 8.6, 7}), WithinRel(0.2, 1e-9));

@@ -182,6 +182,11 @@ inline diagnosis_example hovercraft_diagnosis() {
     add({}, excluded, interval(3.1024, 3.1987), 3.15, {});
     d.answer = sivid::answer_kind::effects;
     d.effects = {"rudder_lag"};
+    d.change = {
+        {"a further state rudder_lag.delta starts at delta, with rudder_lag.delta' = (delta - "
+         "rudder_lag.delta) / tau",
+         "delta becomes rudder_lag.delta"},
+        {{"rudder_lag.tau", "tau"}}};
     d.indistinguishable = {{"input_delay"}};
     d.unobservable = {"heading_bias"};
     d.shrink_fit = interval(0.99, 1.0);

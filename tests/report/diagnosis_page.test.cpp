@@ -47,7 +47,7 @@ TEST_CASE("diagnosis page: a full page says everything once it is known") {
                                    "excluded (proved)",
                                    "RMSE of psi",
                                    "samples in the predicted tube",
-                                   "What to measure next",
+                                   "What to do now",
                                    "heading_bias",
                                    "The witness",
                                    "0.1690125",

@@ -160,6 +160,14 @@ TEST_CASE("diagnosis words: which measurements stand alone") {
     CHECK_THAT(confined_clause(together), !ContainsSubstring("go together"));
     together.together_for = 0.4123;
     CHECK(missing_fact(confined_clause(together), {"go together for 0.412 s", "estimate"}) == "");
+    auto coarse = together;
+    coarse.step = 0.125;
+    coarse.unit = "m/s";
+    CHECK(missing_fact(confined_clause(coarse),
+                       {"steps of 0.125\xC2\xA0m/s", "half a step", "proved"}) == "");
+    CHECK_THAT(confined_clause(coarse), !ContainsSubstring("go together"));
+    coarse.cut_off = true;
+    CHECK(missing_fact(confined_clause(coarse), {"wider by a step"}) == "");
     diagnosis_view v = hovercraft_diagnosis().view();
     auto const answered = banner_sentence(v);
     v.confined = {c};

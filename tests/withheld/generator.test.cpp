@@ -302,3 +302,40 @@ TEST_CASE("labelled campaigns of others lie within their bounds of the simulated
     CHECK(checked == 13);
 }
 #endif
+
+TEST_CASE("readings in steps are whole multiples of them, and a heading stays within one turn") {
+    temporary_folder const folder;
+    REQUIRE(generate(folder.path(), 5, 8, "--families reading") == 0);
+    std::size_t crossed = 0;
+    for (auto const& l : read_labels(folder.path() / "labels.tsv")) {
+        CAPTURE(l.id, l.effects_text);
+        auto const data = read_recording(folder.path() / "campaigns" / l.id);
+        auto const& [name, values] = l.effects.at(0);
+        bool const wraps = name == "wraps_psi";
+        CHECK(wraps == (l.number("fit_true").value() <= 1)); // modulo a turn
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (auto const& s : data.scenarios) {
+            channels start{};
+            for (std::size_t k = 0; k < channel_count; ++k) start[k] = s.plan.initial[k].middle();
+            start = true_start(l, s.plan.name).value_or(start);
+            auto const truth = readings(true_world(l, data.fixed, s.plan), start,
+                                        s.plan.sample_times, careful_step);
+            for (auto const& m : s.samples) {
+                double const y = truth[m.time][m.channel];
+                if (wraps && m.channel == 5) {
+                    low = std::min(low, m.value);
+                    high = std::max(high, m.value);
+                    crossed += std::abs(m.value - y) > 3 ? 1U : 0U;
+                    CHECK(std::abs(apart(m.value, y, values.at(0))) <= 1.001 * m.error);
+                } else if (!wraps && channel_names[m.channel] == name.substr(6)) {
+                    CHECK(std::abs(std::remainder(m.value, values.at(0))) < 1e-4);
+                    CHECK(std::abs(m.value - y) <= m.error + 0.51 * values.at(0));
+                } else {
+                    CHECK(std::abs(m.value - y) <= m.error);
+                }
+            }
+        }
+        if (wraps) CHECK(high - low <= values.at(0));
+    }
+    CHECK(crossed > 20);
+}

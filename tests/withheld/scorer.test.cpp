@@ -206,7 +206,8 @@ TEST_CASE("answers to what no candidate holds") {
     for (auto const& l : {with("askew", "askew_uv", {0.05}), with("instrument", "drift_r", {0.05}),
                           with("bounds", "bounds_v", {1.6}), with("strong", "payload", {0.7}),
                           with("noise", "jitter_v", {0.05}), with("noise", "growing_v", {0.05}),
-                          with("slow", "slow_v", {1.5, 0.4})}) {
+                          with("slow", "slow_v", {1.5, 0.4}), with("reading", "steps_v", {0.05}),
+                          with("reading", "wraps_psi", {6.28319})}) {
         CAPTURE(l.effects[0].first);
         CHECK_FALSE(l.attainable());
         CHECK(judge(l, unexplained).right);
@@ -217,6 +218,7 @@ TEST_CASE("answers to what no candidate holds") {
     }
     CHECK(judge(with("strong", "payload", {0.7}), answering({"payload"})).right);
     CHECK(judge(with("instrument", "lagging_xy", {0.2}), answering({"position_latency"})).right);
+    CHECK(judge(with("reading", "wraps_psi", {6.28319}), answering({"sensor_wrap(psi)~13"})).right);
     CHECK_FALSE(judge(with("strong", "payload", {0.3}), unexplained).right); // in its prior
 
     // Beyond its prior, and said so: the wider effect must hold the truth.

@@ -55,7 +55,7 @@ inline void put(wire_writer& out, std::vector<std::size_t> const& effects) {
 class candidate_server {
 public:
     candidate_server(identification_problem const& base, std::vector<effect> const& catalogue)
-        : candidates_(base, catalogue), effects_(catalogue.size()) {}
+        : candidates_(base, catalogue), effects_(candidates_.catalogue().size()) {}
 
     /// @throws wire_error
     [[nodiscard]] std::string answer(std::string_view request,

@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSIS_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSIS_HPP
 
+#include <sivid/model/change/changed_formulas.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/paving/run/run_reach.hpp>
 
@@ -190,6 +191,14 @@ struct error_correlation {
     double seconds = 0;       ///< in which it falls to 1/e
 };
 
+/// Readings that are too coarse for their error bounds: whole multiples of a step. With half a step
+/// more (rounded), or a whole one (cut off), the bounds of the channel explain all data; proved.
+struct reading_steps {
+    double size = 0;
+    std::string unit{};
+    bool cut_off = false; ///< half a step more is not enough
+};
+
 /// Measurements that alone stand against the model: one parameter of the prior explains all the
 /// others, and these, too, once their error bounds grow.
 struct confined_gap {
@@ -202,6 +211,8 @@ struct confined_gap {
     std::vector<std::string> assumptions{};
     std::optional<noise_growth> grows{};           ///< where that is much likelier, of a channel
     std::optional<error_correlation> correlated{}; ///< where that is clear, of a channel
+    /// Where these explain it, of a channel; then neither of the two above is asked for.
+    std::optional<reading_steps> steps{};
 };
 
 /// How well hold-out data are met, before and after an effect is joined.
@@ -299,6 +310,7 @@ struct diagnosis {
     answer_kind answer = answer_kind::none;
     tried_candidates tried;
     std::vector<std::string> effects; ///< the answer
+    changed_formulas change{};        ///< that it makes to the model, for a simulator
     /// Every constant of the model with the answer's effects (of the closest candidate where none
     /// explains the data): the values of the verified witness where there is one, else of the fit.
     std::vector<named_estimate> constants;

@@ -5,5 +5,6 @@
 #include <sivid/measurement/impl/limited_signal.ipp>
 #include <sivid/measurement/impl/played_signal.ipp>
 #include <sivid/measurement/impl/signal.ipp>
+#include <sivid/measurement/impl/wrapped_readings.ipp>
 
 #endif

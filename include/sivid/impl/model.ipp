@@ -2,6 +2,7 @@
 #ifndef SIVID_IMPL_MODEL_IPP
 #define SIVID_IMPL_MODEL_IPP
 
+#include <sivid/model/change/impl/changed_formulas.ipp>
 #include <sivid/model/change/impl/slower_inputs.ipp>
 #include <sivid/model/graph/impl/graph.ipp>
 #include <sivid/model/graph/impl/graph_listing.ipp>

@@ -35,6 +35,7 @@
 #include <sivid/report/impl/ranking_page.ipp>
 #include <sivid/report/impl/reach_words.ipp>
 #include <sivid/report/impl/table.ipp>
+#include <sivid/report/page/impl/advice.ipp>
 #include <sivid/report/page/impl/diagnosis_figures.ipp>
 #include <sivid/report/page/impl/diagnosis_tables.ipp>
 #include <sivid/report/page/impl/holdout_tables.ipp>

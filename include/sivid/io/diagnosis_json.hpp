@@ -116,6 +116,14 @@ private:
             } else {
                 json_.null();
             }
+            json_.key("steps");
+            if (c.steps) {
+                json_.begin_object(one_line);
+                json_.key("size").nearest(c.steps->size).key("unit").string(c.steps->unit);
+                json_.key("cut_off").boolean(c.steps->cut_off).end_object();
+            } else {
+                json_.null();
+            }
             json_.end_object();
         }
         json_.end_array();
@@ -279,6 +287,10 @@ private:
         json_.end_object();
         constants();
         combinations();
+        strings("formulas", d_->change.lines);
+        json_.key("symbols").begin_object(one_line);
+        for (auto const& [name, symbol] : d_->change.symbols) json_.key(name).string(symbol);
+        json_.end_object();
         json_.key("verified").boolean(d_->constants_verified);
         json_.key("at_ends").begin_array();
         for (auto const& a : d_->at_ends) {

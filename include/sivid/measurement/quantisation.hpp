@@ -31,11 +31,75 @@ inline double usual_magnitude(std::vector<double> values) {
     return *at;
 }
 
+/// Euclid for doubles: the largest step of which all gaps are whole multiples within their
+/// rounding; 0: none above the smallest.
+inline double exact_step(std::vector<double> const& gaps, double size, double smallest) {
+    double step = gaps.front();
+    for (double gap : gaps) {
+        // Euclid with a tolerance: the rounding of the step counts as often as the gap holds it.
+        while (true) {
+            double const rest = std::abs(std::remainder(gap, step));
+            double const rounding = 1e-15 * size * (1 + gap / step);
+            if (rounding > 0.1 * step || rest <= rounding + 1e-4 * step) break;
+            gap = step;
+            step = rest;
+        }
+        if (step < smallest) return 0;
+    }
+    return step;
+}
+
+/// The last decimal place of all values, if they have at most so many; else 0.
+inline double last_place(std::vector<double> const& values) {
+    constexpr int most = 9;
+    double unit = 1;
+    for (int k = 0; k <= most; ++k, unit *= 10) {
+        bool const whole = std::all_of(values.begin(), values.end(), [unit](double v) {
+            double const scaled = v * unit;
+            return std::abs(scaled - std::round(scaled)) <= 1e-6;
+        });
+        if (whole) return 1 / unit;
+    }
+    return 0;
+}
+
+/// The step of readings that were written with a last decimal place: whole multiples within one of
+/// it, and many of it. Euclid, with each longer gap telling the step more finely; 0: there is none.
+/// @param gaps  of the sorted values, ascending
+inline double written_step(std::vector<double> const& values, std::vector<double> const& gaps,
+                           double place) {
+    constexpr std::size_t least = 10; // gaps; fewer would agree by chance
+    double const slack = 2 * place, smallest = 20 * place;
+    if (gaps.size() < least) return 0;
+    double step = gaps.front(), told_by = 1; // so many steps tell it
+    for (double gap : gaps) {
+        while (true) {
+            double const n = std::round(gap / step), rest = std::abs(gap - n * step);
+            if (step < smallest) return 0;
+            if (rest <= slack) {
+                if (n > told_by) step = gap / n, told_by = n;
+                break;
+            }
+            gap = step;
+            step = rest;
+            told_by = 1;
+        }
+    }
+    double const range = values.back() - values.front();
+    step = range / std::round(range / step);
+    bool const all = std::all_of(values.begin(), values.end(), [&](double v) {
+        return std::abs(std::remainder(v - values.front(), step)) <= slack;
+    });
+    return all ? step : 0;
+}
+
 } // namespace quantisation_detail
 
 /// The largest step of which all differences of the values are whole multiples, within the rounding
 /// of doubles; 0 when there is none above 1e-9 of the largest magnitude, or no two different
 /// values. The true step of the instrument divides it: short records may show a multiple.
+///   Where that is no more than the last decimal place they are written with, it is a step of at
+/// least 20 such places of which they are multiples within one, if there is one.
 /// @given  finite values (trusted)
 /// @cost  n log n
 [[nodiscard]] inline double quantisation_step(std::vector<double> values) {
@@ -55,18 +119,13 @@ inline double usual_magnitude(std::vector<double> values) {
     }
     std::sort(gaps.begin(), gaps.end());
     if (gaps.empty() || !std::isfinite(gaps.back())) return 0;
-    double step = gaps.front();
-    for (double gap : gaps) {
-        // Euclid with a tolerance: the rounding of the step counts as often as the gap holds it.
-        while (true) {
-            double const rest = std::abs(std::remainder(gap, step));
-            double const rounding = 1e-15 * size * (1 + gap / step);
-            if (rounding > 0.1 * step || rest <= rounding + 1e-4 * step) break;
-            gap = step;
-            step = rest;
-        }
-        if (step < smallest) return 0;
+    double const step = quantisation_detail::exact_step(gaps, size, smallest);
+    double const place = quantisation_detail::last_place(values);
+    if (place > 0 && step < 1.5 * place) {
+        double const coarse = quantisation_detail::written_step(values, gaps, place);
+        if (coarse > 0) return coarse;
     }
+    if (!(step > 0)) return 0;
     double const range = values.back() - values.front();
     return std::isfinite(range) ? range / std::round(range / step) : step;
 }

@@ -70,6 +70,13 @@ struct effect {
         bool stands = false; ///< beyond it (saturation), else within (dead band)
     };
     std::optional<input_threshold> threshold{};
+    /// Where the effect shows a channel modulo something: an input, its name and ".wraps", counts how
+    /// often readings of the channel in an experiment have leapt back, by at least `least`.
+    struct wrapped_channel {
+        std::string channel;
+        double least = 0;
+    };
+    std::optional<wrapped_channel> wraps{};
     /// The experiments in which it acts, others do not see it; none: it acts in all. Such an effect
     /// has a switch, an input of its name that is 1 where it acts and else 0.
     std::vector<std::string> only_in{};
@@ -112,6 +119,8 @@ public:
     [[nodiscard]] expression& constant(std::string const& name);
     /// The input, as the model sees it.
     [[nodiscard]] expression& input(std::string const& name);
+    /// How often the readings of the channel that the effect wraps have leapt back.
+    [[nodiscard]] expression& wraps() { return input(effect_->name + ".wraps"); }
     /// A state, an input, a constant, or the time, t, as the model sees it.
     [[nodiscard]] expression const& named(std::string const& name) const;
     /// Time derivative of a state; of the model's own ones from `on_rates` on.

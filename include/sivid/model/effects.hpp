@@ -108,6 +108,10 @@ SIVID_DECL effect sensor_drift(std::string const& name, std::string const& chann
 /// y clamped to [-lim, lim].
 SIVID_DECL effect sensor_saturation(std::string const& name, std::string const& channel,
                                     std::string const& unit, range const& lim);
+/// y modulo T, as the readings leap: y - n T, with n how often they have leapt back by at least
+/// `least` (about half of T).
+SIVID_DECL effect sensor_wrap(std::string const& name, std::string const& channel,
+                              std::string const& unit, range const& T, double least);
 /// An instrument that is mounted askew by an angle: y cos a - z sin a and y sin a + z cos a for its
 /// two channels, of one unit.
 SIVID_DECL effect sensor_rotation(std::string const& name, std::vector<std::string> const& channels,

@@ -147,6 +147,9 @@ struct confined_view {
     growth grows = growth::times;
     range coefficient{};
     double together_for = 0; ///< seconds over which its errors go together; 0: not seen
+    double step = 0;         ///< of its readings, where that is too coarse for its bounds; else 0
+    bool cut_off = false;    ///< a whole step explains all data, half of one does not
+    std::string unit{};      ///< of the channel
 };
 
 /// What is left of the gap with the candidate that comes closest, when none explains the data.
@@ -182,7 +185,9 @@ struct diagnosis_view {
 
     answer_state answer = answer_state::nothing;
     tried_view singles{}, pairs{}, larger{};
-    std::vector<std::string> effects{}; ///< the answer
+    std::vector<std::string> effects{};           ///< the answer
+    std::vector<std::string> formulas{};          ///< that a simulator has to take
+    std::map<std::string, std::string> symbols{}; ///< in them, by parameters of effects
     std::vector<std::vector<std::string>> indistinguishable{};
     std::vector<candidate_view> candidates{};         ///< best first
     std::vector<estimate_view> constants{};           ///< of the model of the answer, all of them

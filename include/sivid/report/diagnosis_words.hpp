@@ -81,13 +81,6 @@ namespace sivid::report {
 /// (proved)"; empty when nothing is said of one.
 [[nodiscard]] SIVID_DECL std::string remainder_clause(diagnosis_view const& v);
 
-/// "v in S3": the measurements of a part.
-[[nodiscard]] SIVID_DECL std::string part_words(confined_view const& c);
-
-/// "one parameter explains all data but those of v, whose bounds must grow by a factor of 1.61 to
-/// 1.66 (proved)"
-[[nodiscard]] SIVID_DECL std::string confined_clause(confined_view const& c);
-
 /// What was tried in vain, and what comes closest by now; of an answer that is open.
 [[nodiscard]] SIVID_DECL std::string open_clause(diagnosis_view const& v);
 

@@ -10,6 +10,7 @@
 #include <sivid/diagnosis/candidate/detail/effect_sets.hpp>
 #include <sivid/diagnosis/candidate/detail/episode_search.hpp>
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 
 #include <algorithm>
@@ -26,13 +27,15 @@
 
 namespace sivid {
 
-/// Fits a catalogue of effects, alone, in pairs and perhaps further, to one campaign. Nothing here
-/// is proved.
+/// Fits a catalogue of effects, and channels that wrap, alone, in pairs and perhaps further, to one
+/// campaign. Nothing here is proved.
 class screening {
 public:
     screening(identification_problem base, std::vector<effect> catalogue,
               screening_options options = {})
-        : base_(std::move(base)), catalogue_(std::move(catalogue)), options_(std::move(options)) {
+        : base_(std::move(base)),
+          catalogue_(with_wrapped_channels(base_, std::move(catalogue))),
+          options_(std::move(options)) {
         for (auto const& e : base_.experiments) measurements_ += e.measurements.size();
     }
 

@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_IMPL_AFFECTED_PROBLEM_IPP
 
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/measurement/wrapped_readings.hpp>
 
 namespace sivid {
 
@@ -25,6 +26,14 @@ inline signal switch_of(effect const& e, experiment const& x) {
     if (until <= x.begin) on = 0;
     return analytic_signal::from([on](auto const&) { return on; });
 }
+/// How often a channel has wrapped in an experiment.
+inline signal wraps_in(experiment const& x, model_description const& about,
+                       effect::wrapped_channel const& w) {
+    auto count =
+        wraps_of(x.measurements, index_of(about.channels, w.channel, "channel"), w.least, x.begin);
+    if (count.values().size() > 1) return count;
+    return analytic_signal::from([](auto const&) { return 0.0; });
+}
 } // namespace diagnosis_detail
 
 SIVID_DECL identification_problem affected(identification_problem const& base,
@@ -40,10 +49,16 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
                 x.inputs.push_back(signal(x.inputs[c->of]));
                 continue;
             }
-            auto const e = std::find_if(effects.begin(), effects.end(), [&](effect const& other) {
-                return other.name == inputs[k].name;
-            });
-            x.inputs.push_back(diagnosis_detail::switch_of(*e, x));
+            auto const of = [&](std::string const& what) {
+                return std::find_if(effects.begin(), effects.end(), [&](effect const& e) {
+                    return e.name + what == inputs[k].name;
+                });
+            };
+            auto const own = of("");
+            auto const& about = base.model.about;
+            x.inputs.push_back(own == effects.end()
+                                   ? diagnosis_detail::wraps_in(x, about, *of(".wraps")->wraps)
+                                   : diagnosis_detail::switch_of(*own, x));
         }
     }
     std::vector<interval> prior(base.prior.begin(), base.prior.end());

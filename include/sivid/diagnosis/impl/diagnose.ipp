@@ -12,6 +12,7 @@
 #include <sivid/diagnosis/candidate/detail/proposed_terms.hpp>
 #include <sivid/diagnosis/candidate/detail/scenario_names.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/diagnosis/claim/detail/answer_formulas.hpp>
 #include <sivid/diagnosis/claim/detail/answer_hulls.hpp>
 #include <sivid/diagnosis/claim/detail/candidate_verdicts.hpp>
 #include <sivid/diagnosis/claim/detail/claim_review.hpp>
@@ -71,6 +72,7 @@ public:
         answer_hulls(run_, effort_, options_)(); // last: they take what time there is
         settle_claims(run_);
         state_constants();
+        state_change(run_);
         d.interrupted = effort_.stopped() || !d.tried.complete();
         d.seconds = effort_.seconds();
         return std::move(run_);
@@ -120,10 +122,8 @@ private:
         for (auto const& f : run_.findings) run_.result.relations.push_back(reported(f));
     }
     void find_places() {
-        std::string const looking = "looking where the model departs from the data";
-        auto options = place_effort();
-        if (!effort_.go_on(looking)) return;
-        run_.places = estimate_places(run_.base, std::move(options), &run_.candidates.front().fit);
+        if (!effort_.go_on("looking where the model departs from the data")) return;
+        run_.places = estimate_places(run_.base, place_effort(), &run_.candidates.front().fit);
         run_.result.where = reported(run_.places, run_.findings);
     }
     [[nodiscard]] place_options place_effort() {

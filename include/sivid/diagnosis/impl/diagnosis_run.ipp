@@ -8,6 +8,7 @@
 #include <sivid/diagnosis/hold_out/detail/holdout_judgement.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -23,10 +24,11 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     // Whether effects of some scenarios act in the hold-out ones nobody knows.
-    auto const& inputs = run.base.model.about.inputs;
+    auto const partial = [](effect const& e) { return !e.only_in.empty(); };
     bool const answered =
         !run.result.causes.empty() &&
-        run.candidates[run.answer].problem.model.about.inputs.size() == inputs.size();
+        std::ranges::none_of(holdout::effects_of(run.candidates[run.answer], run.catalogue),
+                             partial);
     bool const one_by_one = test.workers.threads <= 1;
     auto const judge = [&](screened const& candidate, verified_inflation const& bound,
                            explained_hull const& explaining, double share) {

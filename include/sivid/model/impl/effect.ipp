@@ -321,6 +321,7 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
             constants.push_back({name, p.unit, literal{enclose(p.neutral), nearest(p.neutral)}});
         }
         if (!e.only_in.empty()) result.about.inputs.push_back({e.name, "1"});
+        if (e.wraps) result.about.inputs.push_back({e.name + ".wraps", "1"});
     }
     effect_scope scope(result);
     // Where its switch is 0 an effect sees its neutral values. With these a state of its own may

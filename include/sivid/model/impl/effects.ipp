@@ -226,6 +226,14 @@ SIVID_DECL effect sensor_saturation(std::string const& name, std::string const& 
     return e;
 }
 
+SIVID_DECL effect sensor_wrap(std::string const& name, std::string const& channel,
+                              std::string const& unit, range const& T, double least) {
+    auto e = detail::one(name, "T", unit, T, "readings of " + channel + " that wrap", 2);
+    e.on_channels = [channel](effect_scope& m) { m.channel(channel) -= m.parameter() * m.wraps(); };
+    e.wraps = {channel, least};
+    return e;
+}
+
 SIVID_DECL effect sensor_rotation(std::string const& name, std::vector<std::string> const& channels,
                                   range const& a) {
     detail::need_two(channels, "sensor_rotation", name);

@@ -142,6 +142,11 @@ SIVID_DECL effect sensor_fault(std::string const& name, model_description const*
         f.need(1);
         return kinds::sensor_saturation(name, channels[0], unit_of(channels[0]), f.from("e-1"));
     }
+    if (f.kind == "sensor_wrap") {
+        f.need(1);
+        return kinds::sensor_wrap(name, channels[0], unit_of(channels[0]),
+                                  {0_dec, detail::kept(f.size)}, *parse_nearest(f.size) / 4);
+    }
     bool const arm = f.kind == "sensor_lever_arm", beside = f.kind == "sensor_velocity_arm";
     f.need(arm || beside ? 3 : 2);
     if (f.kind == "sensor_rotation") return kinds::sensor_rotation(name, channels, f.either_way());
@@ -153,9 +158,8 @@ SIVID_DECL effect sensor_fault(std::string const& name, model_description const*
         auto const length = unit.ends_with("/s") ? unit.substr(0, unit.size() - 2) : unit;
         return kinds::sensor_velocity_arm(name, two, channels[2], length, f.either_way());
     }
-    f.fail(
-        "there are sensor_bias, drift, scale, latency, lag, saturation, rotation, swap, lever_arm "
-        "and velocity_arm");
+    f.fail("there are sensor_bias, drift, scale, latency, lag, saturation, wrap, rotation, swap, "
+           "lever_arm and velocity_arm");
 }
 
 SIVID_DECL std::vector<effect> effects_named(std::vector<effect> const& catalogue,

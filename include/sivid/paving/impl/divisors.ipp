@@ -123,19 +123,6 @@ private:
     return result;
 }
 
-/// Whether the formula of a node is short enough to be read.
-[[nodiscard]] inline bool is_short(graph const& g, node_id i) {
-    constexpr double most = 40;
-    std::vector<double> sizes; // of formulas, in which shared nodes are repeated
-    for (std::size_t k = 0; k <= i; ++k) {
-        auto const& n = g.nodes()[k];
-        double size = 1;
-        if (!is_leaf(n.op)) size += sizes[n.a] + (is_binary(n.op) ? sizes[n.b] : 0);
-        sizes.push_back(std::min(size, 2 * most));
-    }
-    return sizes[i] <= most;
-}
-
 } // namespace paving_detail
 
 SIVID_DECL std::vector<divisor> divisors_of(identification_problem const& problem,
@@ -186,7 +173,7 @@ SIVID_DECL std::vector<divisor> divisors_of(identification_problem const& proble
         }
         if (d.equations.empty()) continue; // of derivatives alone
         done.push_back(below);
-        if (paving_detail::is_short(g, below)) d.formula = formula_text(g, below, names);
+        if (is_short(g, below, names, 40)) d.formula = formula_text(g, below, names);
         paving_detail::zero_test test(g, below, domain);
         inversion_options search;
         search.boxes = options.boxes;

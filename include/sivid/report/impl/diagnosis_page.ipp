@@ -10,6 +10,7 @@
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/page.hpp>
+#include <sivid/report/page/detail/advice.hpp>
 #include <sivid/report/page/detail/diagnosis_figures.hpp>
 #include <sivid/report/page/detail/diagnosis_tables.hpp>
 #include <sivid/report/page/detail/holdout_tables.hpp>
@@ -135,11 +136,6 @@ inline void add_comparison(page& out, diagnosis_view const& v) {
 }
 
 inline void add_basis(page& out, diagnosis_view const& v) {
-    std::string const next = next_words(v);
-    if (!next.empty()) {
-        out.section("What to measure next");
-        out.prose(next);
-    }
     out.section("What this rests on");
     out.assumptions(v.assumptions);
     candidate_view const* const c = answer_of(v);
@@ -207,6 +203,7 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     detail::add_constants(out, v);
     detail::add_remainder(out, v);
     detail::add_comparison(out, v);
+    add_advice(out, v);
     detail::add_basis(out, v);
     out.footer({v.version, v.date});
     return out;

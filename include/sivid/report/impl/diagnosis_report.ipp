@@ -165,6 +165,8 @@ SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const&
                      .pairs = {d.tried.pairs.tried, d.tried.pairs.planned},
                      .larger = {d.tried.larger.tried, d.tried.larger.planned},
                      .effects = d.effects,
+                     .formulas = d.change.lines,
+                     .symbols = d.change.symbols,
                      .indistinguishable = d.indistinguishable,
                      .unobservable = d.unobservable,
                      .absorbed = options.absorbed,
@@ -189,6 +191,8 @@ SIVID_DECL diagnosis_view view_of(diagnosis const& d, diagnosis_plot_data const&
         v.confined.push_back({c.channel, c.scenarios, detail::drawn(c.factor)});
         auto& own = v.confined.back();
         if (c.correlated) own.together_for = c.correlated->seconds;
+        if (c.steps)
+            own.step = c.steps->size, own.cut_off = c.steps->cut_off, own.unit = c.steps->unit;
         if (!c.grows) continue;
         own.grows = c.grows->what == noise_growth::with::rate ? confined_view::growth::rate
                                                               : confined_view::growth::value;

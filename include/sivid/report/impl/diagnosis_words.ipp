@@ -253,38 +253,6 @@ SIVID_DECL std::string remainder_clause(diagnosis_view const& v) {
     return proved || fitted ? out + ")" : out + "unknown size is left";
 }
 
-SIVID_DECL std::string part_words(confined_view const& c) {
-    auto const where = enumeration(c.scenarios);
-    return c.channel + (c.channel.empty() || where.empty() ? "" : " in ") + where;
-}
-
-namespace detail {
-
-/// Nothing where bounds grow by a factor, and errors come one by one.
-inline std::string growth_clause(confined_view const& c) {
-    auto const size = inflation_text(c.coefficient);
-    std::string const grows =
-        c.grows == confined_view::growth::times ? ""
-        : c.grows == confined_view::growth::rate
-            ? "; likelier, they grow with how fast it changes, by " + size +
-                  " s times its rate (proved to explain): time stamps that are so far off would "
-                  "show that"
-            : "; likelier, they grow with what it shows, by " + size +
-                  " times its value (proved to explain)";
-    return c.together_for > 0 ? grows + "; its errors go together for " +
-                                    rounded_text(c.together_for, rounding::nearest) +
-                                    " s or so (estimate), as those of something slow do"
-                              : grows;
-}
-
-} // namespace detail
-
-SIVID_DECL std::string confined_clause(confined_view const& c) {
-    return "one parameter explains all data but those of " + part_words(c) +
-           ", whose bounds must grow by a factor of " + inflation_text(c.factor) + " (proved)" +
-           detail::growth_clause(c);
-}
-
 SIVID_DECL std::string open_clause(diagnosis_view const& v) {
     std::string const tried = tried_text(v);
     candidate_view const* closest = nullptr;

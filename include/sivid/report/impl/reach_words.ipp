@@ -104,7 +104,8 @@ inline std::string divisor_text(divisor const& d) {
         words += (k == 0 ? " (near " : ", ") + d.near[k].first + " = " + brief(d.near[k].second);
     }
     if (!d.near.empty()) words += ")";
-    return words + ": no trajectory is enclosed there. A prior, or limits, without it may tell more";
+    return words +
+           ": no trajectory is enclosed there. A prior, or limits, without it may tell more";
 }
 
 /// What no method could exclude; empty where that is not much.

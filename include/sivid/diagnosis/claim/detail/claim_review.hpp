@@ -204,8 +204,8 @@ inline void withdraw_contradictions(diagnosis& d,
 
 /// Puts an instrument before all other places: the one whose fault is the answer, or, where no
 /// effect is, the channel that alone stands against the model: what is wrong elsewhere shows in
-/// others, too. Of several such channels one whose noise grows, or whose errors go together, unless
-/// no place was found at all.
+/// others, too. Of several such channels one whose noise grows, whose errors go together or whose
+/// readings are too coarse, unless no place was found at all.
 inline void suspect_instrument(diagnosis& d) {
     if (d.gap == gap_verdict::none) return;
     std::vector<std::string> suspects;
@@ -216,7 +216,7 @@ inline void suspect_instrument(diagnosis& d) {
             suspects = faulty_channels(d.effects.front());
     } else {
         auto const of_channel = [](auto const& c) { return !c.channel.empty(); };
-        auto const told = [](auto const& c) { return c.grows || c.correlated; };
+        auto const told = [](auto const& c) { return c.grows || c.correlated || c.steps; };
         auto const begin = d.confined.begin(), end = d.confined.end();
         bool const one = std::count_if(begin, end, of_channel) == 1;
         auto alone = std::find_if(begin, end, told);

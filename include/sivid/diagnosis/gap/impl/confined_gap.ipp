@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_GAP_IMPL_CONFINED_GAP_IPP
 #define SIVID_DIAGNOSIS_GAP_IMPL_CONFINED_GAP_IPP
 
+#include <sivid/diagnosis/gap/detail/coarse_steps.hpp>
 #include <sivid/diagnosis/gap/detail/confined_gap.hpp>
 #include <sivid/diagnosis/gap/detail/error_sequence.hpp>
 
@@ -233,10 +234,11 @@ private:
         result.factor = known->lower > 0 ? factor : traits::bounds(0.0, factor.upper());
         result.witness = witness_of(*known);
         result.assumptions = known->proved.assumptions;
-        if (part.channel) {
-            result.grows = likelier_growth(part, times, *known);
-            result.correlated = correlation(part, times, *known);
-        }
+        if (!part.channel) return result;
+        result.steps = coarse_steps(*p_, part, times(*p_, known->upper));
+        if (result.steps) return result; // errors of rounding, whatever they look like
+        result.grows = likelier_growth(part, times, *known);
+        result.correlated = correlation(part, times, *known);
         return result;
     }
     /// By least squares within the grown bounds: Chebyshev fits shape what they leave.

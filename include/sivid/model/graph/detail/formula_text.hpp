@@ -5,7 +5,9 @@
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,19 +17,36 @@ namespace sivid {
 /// What the leaves of a graph are called.
 struct leaf_names {
     std::vector<std::string> constants, states{}, inputs{};
+    std::map<node_id, std::string> nodes{}; ///< what else has a name, and is not written out
 };
+
+/// Whether the formula of a node, in which shared ones are repeated, has so many parts at most.
+[[nodiscard]] inline bool is_short(graph const& g, node_id i, leaf_names const& names,
+                                   double most) {
+    std::vector<double> sizes;
+    for (std::size_t k = 0; k <= i; ++k) {
+        auto const& n = g.nodes()[k];
+        double size = 1;
+        if (!is_leaf(n.op) && !names.nodes.contains(static_cast<node_id>(k)))
+            size += sizes[n.a] + (is_binary(n.op) ? sizes[n.b] : 0);
+        sizes.push_back(std::min(size, 2 * most));
+    }
+    return sizes[i] <= most;
+}
 
 /// A node as a formula: "3.141592653589793 * D^2 / 4". Literals are the decimals of their nearest
 /// doubles; leaves without a name are "?".
 /// @cost  that of the text, which may be long where subexpressions are shared
 [[nodiscard]] inline std::string formula_text(graph const& g, node_id i, leaf_names const& names) {
+    if (auto const known = names.nodes.find(i); known != names.nodes.end()) return known->second;
     auto const& n = g[i];
     auto const named = [&n](std::vector<std::string> const& known) {
         auto const k = static_cast<std::size_t>(n.index);
         return k < known.size() ? known[k] : std::string{"?"};
     };
     // How tightly the outermost operation binds: 1 sums, 2 products, 3 signs, 4 powers, 5 atoms.
-    auto const rank_of = [&g](node_id k) {
+    auto const rank_of = [&](node_id k) {
+        if (names.nodes.contains(k)) return 5;
         switch (g[k].op) {
         case operation::add:
         case operation::sub:

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-/// Places and relations in the words of a diagnosis's page. What is proved is called so; all else
+/// Places, relations and data that stand alone in the words of a diagnosis's page. What is proved is called so; all else
 /// is called an estimate.
 namespace sivid::report {
 
@@ -47,6 +47,13 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88\xC2\xA0"
 
 /// One broken relation in plain words.
 [[nodiscard]] SIVID_DECL std::string relation_words(relation_view const& r);
+
+/// "v in S3": the measurements of a part.
+[[nodiscard]] SIVID_DECL std::string part_words(confined_view const& c);
+
+/// "one parameter explains all data but those of v, whose bounds must grow by a factor of 1.61 to
+/// 1.66 (proved)"
+[[nodiscard]] SIVID_DECL std::string confined_clause(confined_view const& c);
 
 } // namespace sivid::report
 

@@ -94,6 +94,47 @@ SIVID_DECL std::string relation_words(relation_view const& r) {
     return out;
 }
 
+SIVID_DECL std::string part_words(confined_view const& c) {
+    auto const where = enumeration(c.scenarios);
+    return c.channel + (c.channel.empty() || where.empty() ? "" : " in ") + where;
+}
+
+namespace detail {
+
+/// Nothing where the readings are not too coarse.
+inline std::string step_clause(confined_view const& c) {
+    if (!(c.step > 0)) return "";
+    auto const unit = c.unit.empty() ? std::string{} : unit_suffix(c.unit);
+    return "; its readings come in steps of " + rounded_text(c.step, rounding::nearest) + unit +
+           ": bounds that are wider by " + (c.cut_off ? "a step" : "half a step") +
+           " explain all data (proved)";
+}
+
+/// Nothing where bounds grow by a factor, and errors come one by one.
+inline std::string growth_clause(confined_view const& c) {
+    auto const size = inflation_text(c.coefficient);
+    std::string const grows =
+        c.grows == confined_view::growth::times ? ""
+        : c.grows == confined_view::growth::rate
+            ? "; likelier, they grow with how fast it changes, by " + size +
+                  " s times its rate (proved to explain): time stamps that are so far off would "
+                  "show that"
+            : "; likelier, they grow with what it shows, by " + size +
+                  " times its value (proved to explain)";
+    return c.together_for > 0 ? grows + "; its errors go together for " +
+                                    rounded_text(c.together_for, rounding::nearest) +
+                                    " s or so (estimate), as those of something slow do"
+                              : grows;
+}
+
+} // namespace detail
+
+SIVID_DECL std::string confined_clause(confined_view const& c) {
+    return "one parameter explains all data but those of " + part_words(c) +
+           ", whose bounds must grow by a factor of " + inflation_text(c.factor) + " (proved)" +
+           (c.step > 0 ? detail::step_clause(c) : detail::growth_clause(c));
+}
+
 } // namespace sivid::report
 
 #endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MEASUREMENT_IMPL_WRAPPED_READINGS_IPP
+#define SIVID_MEASUREMENT_IMPL_WRAPPED_READINGS_IPP
+
+#include <sivid/measurement/wrapped_readings.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace sivid {
+
+namespace measurement_detail {
+
+/// Of one channel, in the order of their times; those without a finite bound say nothing.
+[[nodiscard]] inline record readings_of(record const& samples, std::size_t channel) {
+    record result;
+    for (auto const& m : sorted(samples))
+        if (m.channel == channel && std::isfinite(mag(m.bound))) result.push_back(m);
+    return result;
+}
+
+} // namespace measurement_detail
+
+SIVID_DECL std::vector<double> steps_of(record const& samples, std::size_t channel) {
+    auto const own = measurement_detail::readings_of(samples, channel);
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < own.size(); ++k)
+        steps.push_back(mid(own[k].bound) - mid(own[k - 1].bound));
+    return steps;
+}
+
+SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel, double least,
+                                   double begin) {
+    auto const own = measurement_detail::readings_of(samples, channel);
+    auto const steps = steps_of(samples, channel);
+    std::vector<double> times{begin}, counts{0};
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        if (!(std::abs(steps[k]) >= least)) continue;
+        double const at = std::midpoint(own[k].time, own[k + 1].time);
+        if (!(at > times.back())) continue; // two readings at one time
+        times.push_back(at);
+        counts.push_back(counts.back() - std::copysign(1.0, steps[k]));
+    }
+    return {std::move(times), std::move(counts), interpolation::hold};
+}
+
+SIVID_DECL double wrapping_range(std::vector<record> const& records, std::size_t channel,
+                                 double turn) {
+    constexpr double least = 0.6, ordinary = 1.0 / 3; // of the largest step
+    std::vector<double> sizes;
+    double most = 0;
+    for (auto const& r : records)
+        for (double const s : steps_of(r, channel)) sizes.push_back(std::abs(s));
+    for (double const s : sizes) most = std::max(most, s);
+    std::size_t leaps = 0;
+    int lasting = 0, net = 0; // those that the next step does not undo; down less up
+    for (auto const& r : records) {
+        auto const steps = steps_of(r, channel);
+        auto const leap = [&](std::size_t k) {
+            return k < steps.size() && std::abs(steps[k]) >= least * most ? steps[k] : 0.0;
+        };
+        for (std::size_t k = 0; k < steps.size(); ++k) {
+            if (leap(k) == 0) continue;
+            ++leaps;
+            bool const undone = leap(k) * leap(k + 1) < 0 || (k > 0 && leap(k - 1) * leap(k) < 0);
+            if (undone) continue;
+            ++lasting;
+            net += leap(k) < 0 ? 1 : -1;
+        }
+    }
+    // What leaps more often than it moves on is no angle that is followed.
+    if (leaps == 0 || lasting == 0 || 4 * leaps > sizes.size()) return 0;
+    std::sort(sizes.begin(), sizes.end());
+    auto const first = sizes.size() - leaps;
+    if (first > 0 && sizes[first - 1] >= ordinary * most) return 0;
+    double const range = sizes[first + leaps / 2];
+    if (turn > 0) return std::abs(range - turn) < turn / 4 ? range : 0;
+    return std::abs(net) > 1 ? range : 0;
+}
+
+} // namespace sivid
+
+#endif

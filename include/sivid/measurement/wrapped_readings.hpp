@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MEASUREMENT_WRAPPED_READINGS_HPP
+#define SIVID_MEASUREMENT_WRAPPED_READINGS_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/measurement/record.hpp>
+#include <sivid/measurement/signal.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace sivid {
+
+/// By how much each reading of a channel (the middle of its bound) differs from the one before, in
+/// the order of their times.
+[[nodiscard]] SIVID_DECL std::vector<double> steps_of(record const& samples, std::size_t channel);
+
+/// How often the readings of a channel have wrapped, as those of a heading between -pi and pi do: a
+/// held signal that is 0 at first and goes one down with a step up of at least `least`, one up with
+/// such a step down, midway between the two readings. What the channel shows of y is then y - n T.
+/// @param least  above 0; about half of T
+/// @param begin  no later than the samples
+[[nodiscard]] SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel,
+                                                 double least, double begin);
+
+/// By how much the readings of a channel leap where they wrap: the median of their leaps, in all
+/// records. Leaps are steps of about one size, of which all other steps are at most a third.
+///   Leaps that the next step undoes are noise at the end of the range, or outliers. Of an angle,
+/// one other leap, of about a full turn, is enough; else there have to be two more one way than the
+/// other.
+/// @param turn  a full turn in the unit of the channel; 0: it is no angle
+/// @returns  0 where they do not wrap
+[[nodiscard]] SIVID_DECL double wrapping_range(std::vector<record> const& records,
+                                               std::size_t channel, double turn);
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/measurement/impl/wrapped_readings.ipp>
+#endif
+
+#endif

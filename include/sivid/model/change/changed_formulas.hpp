@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_CHANGE_CHANGED_FORMULAS_HPP
+#define SIVID_MODEL_CHANGE_CHANGED_FORMULAS_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/model/effect.hpp>
+#include <sivid/model/model.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// What effects change in a model, for whoever writes its simulator.
+struct changed_formulas {
+    /// In the order in which they apply, "delta becomes max(delta - b, 0) + min(delta + b, 0)" or
+    /// "v' becomes v' - k Ff v / (V m)", where v' on the right is the model's own rate. The last
+    /// ones say where and when effects act that do not act everywhere.
+    std::vector<std::string> lines;
+    /// By full name, "wind.wx", the symbol that stands for a parameter in them: "wx", or "k_1" and
+    /// "k_2" where several effects, or an effect and the model, have a k.
+    std::map<std::string, std::string> symbols;
+};
+
+/// The formulas are read off the model with the effects (`with`), so that they say what is computed
+/// and nothing else. One that would be very long is left out, and said to be.
+/// @throws std::invalid_argument  as `with`
+/// @cost  O(size of the graph) but for the text
+[[nodiscard]] SIVID_DECL changed_formulas formulas_of(recorded_model const& base,
+                                                      std::vector<effect> effects);
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/model/change/impl/changed_formulas.ipp>
+#endif
+
+#endif

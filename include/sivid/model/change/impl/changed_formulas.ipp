@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_CHANGE_IMPL_CHANGED_FORMULAS_IPP
+#define SIVID_MODEL_CHANGE_IMPL_CHANGED_FORMULAS_IPP
+
+#include <sivid/model/change/changed_formulas.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/model/graph/detail/formula_text.hpp>
+#include <sivid/model/graph/rewrite.hpp>
+#include <sivid/number/text/nearest_text.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+namespace model_detail {
+
+/// "sensor_lag.u" of "sensor_lag(u:v)~0.5.u": what stands in brackets is known.
+[[nodiscard]] inline std::string short_name(std::string const& name) {
+    auto const opens = name.find_first_of("('~@"), dot = name.rfind('.');
+    return opens < dot && dot != name.npos ? name.substr(0, opens) + name.substr(dot) : name;
+}
+
+[[nodiscard]] inline std::map<std::string, std::string>
+symbols_of(model_description const& about, std::vector<effect> const& effects) {
+    std::multiset<std::string> used{"t"};
+    auto const use = [&used](auto const& all) {
+        for (auto const& x : all) used.insert(x.name);
+    };
+    use(about.states);
+    use(about.inputs);
+    use(about.constants);
+    for (auto const& e : effects) use(e.parameters);
+    std::map<std::string, std::string> result;
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+        for (auto const& p : effects[k].parameters) {
+            auto symbol = p.name;
+            if (used.count(symbol) > 1) symbol += "_" + std::to_string(k + 1);
+            result[effects[k].name + "." + p.name] = std::move(symbol);
+        }
+    }
+    return result;
+}
+
+/// Reads the changes off models in which more and more edits are made.
+class formula_reader {
+public:
+    formula_reader(recorded_model const& base, std::vector<effect> const& effects,
+                   changed_formulas& to)
+        : base_(&base), to_(&to) {
+        auto first = effects;
+        for (auto& e : first) e.on_rates = e.on_channels = {};
+        // States whose rates are inputs and constants as the model sees them.
+        effect seen;
+        seen.name = "seen";
+        seen.order = std::numeric_limits<int>::max();
+        auto const& about = base.about;
+        seen.on_inputs = [&about](effect_scope& m) {
+            auto const show = [&m](std::string const& name, expression const& value) {
+                (void)m.add_state("seen " + name, "1", 1, expression(0));
+                m.rate("seen " + name) = value;
+            };
+            for (auto const& u : about.inputs) show(u.name, m.input(u.name));
+            for (auto const& c : about.constants) show(c.name, m.constant(c.name));
+            show("t", m.time());
+        };
+        auto with_seen = first;
+        with_seen.push_back(seen);
+        seen_ = with(base, std::move(with_seen));
+        before_ = with(base, std::move(first));
+        after_ = with(base, effects);
+    }
+
+    void operator()() {
+        remembered();
+        inputs();
+        rates();
+        channels();
+    }
+
+private:
+    void say(std::string const& what, std::string const& how, std::string const& formula) {
+        to_->lines.push_back(what + how + formula);
+    }
+    /// Delays, plays, rate limits and slow clocks, of inputs first.
+    void remembered() {
+        auto const symbol = [this](signal_memory const& m) {
+            return to_->symbols.at(after_.about.constants[m.constant].name);
+        };
+        for (auto k = base_->input_memory.size(); k < after_.input_memory.size(); ++k) {
+            auto const& m = after_.input_memory[k];
+            auto const& u = after_.about.inputs[m.index].name;
+            auto const p = symbol(m);
+            to_->lines.push_back(
+                u + " becomes " +
+                (m.kind == memory_kind::delay   ? u + " at the time t - " + p
+                 : m.kind == memory_kind::drift ? u + " at the time t - " + p + " (t - begin)"
+                 : m.kind == memory_kind::play  ? u + " behind a play (backlash) of width 2 " + p
+                                                : u + " behind a limit " + p + " of its rate"));
+        }
+        for (auto k = base_->channel_delays.size(); k < after_.channel_delays.size(); ++k) {
+            auto const& m = after_.channel_delays[k];
+            bool const drift = m.kind == memory_kind::drift;
+            to_->lines.push_back("the sensor " + after_.about.channels[m.index].name +
+                                 " shows what was at the time t - " + symbol(m) +
+                                 (drift ? " (t - begin)" : ""));
+        }
+    }
+    /// What the model sees of inputs, constants and the time; states behind which it sees them.
+    void inputs() {
+        auto const& about = base_->about;
+        auto const names = names_in(seen_);
+        for (auto i = base_->rate.size(); i < before_.rate.size(); ++i)
+            added_state(before_, i, names_in(before_));
+        auto k = seen_.rate.size() - about.inputs.size() - about.constants.size() - 1;
+        auto const show = [&](std::string const& name, operation op, std::size_t index) {
+            auto const i = seen_.rate[k++];
+            auto const& n = seen_.g[i];
+            if (n.op == op && static_cast<std::size_t>(n.index) == index) return;
+            say(name, " becomes ", text(seen_, i, names));
+        };
+        for (std::size_t u = 0; u < about.inputs.size(); ++u)
+            show(about.inputs[u].name, operation::input, u);
+        for (std::size_t c = 0; c < about.constants.size(); ++c)
+            show(about.constants[c].name, operation::constant, c);
+        show("t", operation::time, 0);
+    }
+    void rates() {
+        auto& g = after_.g;
+        auto const old = own_rates();
+        auto names = names_in(after_);
+        for (std::size_t i = 0; i < old.size(); ++i) {
+            // A leaf is as short as its name.
+            if (!is_leaf(g[old[i]].op)) names.nodes[old[i]] = rate_name(i);
+        }
+        for (auto i = before_.rate.size(); i < after_.rate.size(); ++i)
+            added_state(after_, i, names);
+        for (std::size_t i = 0; i < base_->rate.size(); ++i)
+            if (after_.rate[i] != old[i])
+                say(rate_name(i), " becomes ", text(after_, after_.rate[i], names));
+    }
+    void channels() {
+        auto& g = after_.g;
+        auto const old = copy_into(g, before_.g, before_.observe, same_leaf);
+        auto const names = names_in(after_);
+        for (std::size_t y = 0; y < base_->observe.size(); ++y) {
+            if (after_.observe[y] != old[y])
+                say("the sensor " + base_->about.channels[y].name, " shows ",
+                    text(after_, after_.observe[y], names));
+        }
+    }
+    void added_state(recorded_model const& m, std::size_t i, leaf_names const& names) {
+        auto const name = short_name(m.about.states[i].name);
+        for (auto const& a : m.added_states) {
+            if (a.state == i)
+                say("a further state " + name, " starts at ",
+                    text(m, a.at_begin, names) + ", with " + name +
+                        "' = " + text(m, m.rate[i], names));
+        }
+    }
+    /// The model's own rates, in the graph with the effects.
+    [[nodiscard]] std::vector<node_id> own_rates() {
+        std::vector<node_id> rates(before_.rate.begin(),
+                                   before_.rate.begin() +
+                                       static_cast<std::ptrdiff_t>(base_->rate.size()));
+        return copy_into(after_.g, before_.g, rates, same_leaf);
+    }
+    [[nodiscard]] std::string rate_name(std::size_t i) const {
+        return base_->about.states[i].name + "'";
+    }
+    [[nodiscard]] static std::string text(recorded_model const& m, node_id i,
+                                          leaf_names const& names) {
+        constexpr double most = 80; // parts; more are not read anyway
+        return is_short(m.g, i, names, most) ? formula_text(m.g, i, names)
+                                             : "something that is too long to be shown";
+    }
+    [[nodiscard]] leaf_names names_in(recorded_model const& m) const {
+        leaf_names names;
+        for (auto const& c : m.about.constants) {
+            auto const known = to_->symbols.find(c.name);
+            names.constants.push_back(known == to_->symbols.end() ? c.name : known->second);
+        }
+        for (auto const& x : m.about.states) names.states.push_back(short_name(x.name));
+        for (auto const& u : m.about.inputs) names.inputs.push_back(short_name(u.name));
+        return names;
+    }
+    static node_id same_leaf(node const& n, graph& g) {
+        return g.leaf(n.op, static_cast<std::size_t>(n.index));
+    }
+
+    recorded_model const* base_;
+    changed_formulas* to_;
+    recorded_model seen_, before_, after_; ///< with the edits of inputs; with all
+};
+
+/// "S1, S2 from 1.2 s on, S3 until 4 s"
+[[nodiscard]] inline std::string episodes_of(effect const& e) {
+    std::string text;
+    for (std::size_t k = 0; k < e.only_in.size(); ++k) {
+        text += (text.empty() ? "" : ", ") + e.only_in[k];
+        double const since = k < e.since.size() ? e.since[k] : effect::from_start;
+        double const until = k < e.until.size() ? e.until[k] : effect::for_ever;
+        if (since > effect::from_start) text += " from " + nearest_text(since) + " s on";
+        if (until < effect::for_ever) text += " until " + nearest_text(until) + " s";
+    }
+    return text;
+}
+
+} // namespace model_detail
+
+SIVID_DECL changed_formulas formulas_of(recorded_model const& base, std::vector<effect> effects) {
+    changed_formulas result;
+    result.symbols = model_detail::symbols_of(base.about, effects);
+    std::vector<std::string> partial;
+    for (auto& e : effects) {
+        auto const own = model_detail::short_name(e.name + ".wraps");
+        if (e.wraps)
+            partial.push_back(own + " counts how often the readings of " + e.wraps->channel +
+                              " have leapt back: follow them beyond the ends of their range");
+        if (e.only_in.empty()) continue;
+        partial.push_back(e.name.substr(0, e.name.find('@')) + " acts in " +
+                          model_detail::episodes_of(e) + " only");
+        e.only_in.clear();
+        e.since.clear();
+        e.until.clear();
+    }
+    model_detail::formula_reader(base, effects, result)();
+    result.lines.insert(result.lines.end(), partial.begin(), partial.end());
+    return result;
+}
+
+} // namespace sivid
+
+#endif

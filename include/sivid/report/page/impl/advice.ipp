@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_REPORT_PAGE_IMPL_ADVICE_IPP
+#define SIVID_REPORT_PAGE_IMPL_ADVICE_IPP
+
+#include <sivid/report/page/detail/advice.hpp>
+
+#include <sivid/compiled.hpp>
+#include <sivid/report/diagnosis_words.hpp>
+#include <sivid/report/identification_words.hpp>
+#include <sivid/report/number_text.hpp>
+#include <sivid/report/page/detail/diagnosis_tables.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sivid::report {
+
+namespace detail {
+
+/// The largest of some misfits.
+struct largest_misfit {
+    comparison_series const* channel = nullptr;
+    double time = 0, bounds = 0; ///< how many error bounds
+
+    void look_at(comparison_series const& c, std::vector<point> const& misfits) {
+        for (auto const& [t, m] : misfits) {
+            if (std::isfinite(m) && m > bounds) channel = &c, time = t, bounds = m;
+        }
+    }
+    /// In the unit of its channel.
+    [[nodiscard]] double size() const {
+        for (auto const& s : channel->measured)
+            if (s.time == time) return bounds * (s.value.hi - s.value.lo) / 2;
+        return std::nan("");
+    }
+};
+
+/// What is wrong with measurements that alone stand against the model.
+inline std::string instrument_advice(confined_view const& c) {
+    auto const part = part_words(c);
+    auto const stated = "state error bounds of " + part;
+    if (c.step > 0)
+        return stated + " that are wider by " + (c.cut_off ? "a" : "half a") +
+               " step of its readings, or read it more finely";
+    if (c.grows == confined_view::growth::rate)
+        return "look at the time stamps of " + part + ", or " + stated +
+               " that grow with how fast it changes";
+    if (c.grows == confined_view::growth::value)
+        return "calibrate " + part + ", or " + stated + " that grow with what it shows";
+    if (!c.channel.empty())
+        return "look at the instrument of " + part + ", or " + stated + " that are " +
+               inflation_text(c.factor) + " times as wide";
+    return "look at what was different in " + part + ": all else is explained without it";
+}
+
+} // namespace detail
+
+SIVID_DECL table change_table(diagnosis_view const& v) {
+    table t{.columns = {{"symbol", column_kind::symbol},
+                        {"value", column_kind::number},
+                        {"proved range", column_kind::number},
+                        {"unit"},
+                        {"of", column_kind::note}},
+            .rows = {}};
+    candidate_view const* const c = answer_of(v);
+    if (c == nullptr) return t;
+    for (estimate_view const& e : c->parameters) {
+        auto const symbol = v.symbols.find(e.name);
+        if (symbol == v.symbols.end()) continue;
+        auto const dot = e.name.rfind('.');
+        t.rows.push_back({symbol->second, value_text(e), hull_text(e),
+                          kept_together(unit_text(e.unit)), name_of(e.name.substr(0, dot))});
+    }
+    return t;
+}
+
+SIVID_DECL table cost_table(diagnosis_view const& v) {
+    table t{.columns = {{"scenario", column_kind::symbol},
+                        {"most off"},
+                        {"at [s]", column_kind::number},
+                        {"by", column_kind::number},
+                        {"in error bounds", column_kind::number},
+                        {"with it, at most", column_kind::number}},
+            .rows = {},
+            .caption =
+                "Of best fits (estimates). With it: the largest misfit of any channel there, "
+                "in error bounds."};
+    for (compared_scenario const& s : v.scenarios) {
+        detail::largest_misfit before, after;
+        for (comparison_series const& c : s.channels) {
+            before.look_at(c, c.misfit_before);
+            after.look_at(c, c.misfit_after);
+        }
+        if (before.channel == nullptr) continue;
+        auto const number = [](double x) { return rounded_text(x, rounding::nearest); };
+        t.rows.push_back(
+            {s.name + (s.holdout ? " (held out)" : ""), before.channel->name,
+             given_text(before.time), number(before.size()) + unit_suffix(before.channel->unit),
+             number(before.bounds), after.channel == nullptr ? "" : number(after.bounds)});
+    }
+    return t;
+}
+
+SIVID_DECL std::vector<std::string> advice_lines(diagnosis_view const& v) {
+    std::vector<std::string> lines;
+    auto const add = [&lines](std::string const& text) {
+        if (!text.empty()) lines.push_back(capitalised(text) + (text.back() == '.' ? "" : "."));
+    };
+    bool const answered = v.answer == answer_state::effects && !v.effects.empty();
+    if (v.gap == gap_state::absent)
+        add("nothing has to be added: the model explains all data of the fit");
+    if (v.answer == answer_state::open)
+        add("give it more time: a larger --budget tries the candidates that are left");
+    if (!answered)
+        for (auto const& c : v.confined) add(detail::instrument_advice(c));
+    if (v.answer == answer_state::unexplained) {
+        auto const& places =
+            v.remainder && !v.remainder->places.empty() ? v.remainder->places : v.places;
+        if (v.confined.empty() && !places.empty())
+            add("look for an effect of your own in " +
+                std::string(places.front().kind == "equation" ? "the " : "") +
+                place_name(places.front()) +
+                (places.front().where.scenario.empty()
+                     ? ""
+                     : " (" + window_text(places.front().where) + ")") +
+                ": nothing that was tried explains what is missing there");
+    }
+    for (end_view const& e : v.at_ends) add(end_words(e));
+    if (answered && v.indistinguishable.empty())
+        add("nothing else that was tried explains all data, so no experiment has to tell "
+            "explanations apart");
+    else if (answered && !v.next)
+        add(alternatives_clause(v));
+    add(next_words(v));
+    return lines;
+}
+
+SIVID_DECL void add_advice(page& out, diagnosis_view const& v) {
+    auto const lines = advice_lines(v);
+    if (lines.empty() && v.formulas.empty()) return;
+    out.section("What to do now");
+    if (!v.formulas.empty()) {
+        out.subsection("Add to the simulator");
+        out.prose(v.formulas.size() > 1 || v.formulas.front().find('\'') != std::string::npos
+                      ? "In this order; on the right of \xE2\x80\x9C"
+                        "becomes\xE2\x80\x9D stands what the simulator has before, x' is the rate "
+                        "of x."
+                      : "On the right of \xE2\x80\x9C"
+                        "becomes\xE2\x80\x9D stands what the simulator has before.");
+        std::vector<std::string> formulas;
+        for (auto const& f : v.formulas) formulas.push_back(formula_text(f));
+        out.bullets(formulas);
+        out.add(change_table(v));
+        if (!v.constants.empty())
+            out.prose("The model's own constants go with it: take those of the table "
+                      "\xE2\x80\x9C"
+                      "All constants\xE2\x80\x9D.");
+        auto const costs = cost_table(v);
+        if (!costs.rows.empty()) {
+            out.subsection("What it costs to leave it out");
+            out.add(costs);
+        }
+        if (!lines.empty()) out.subsection("What to look at and to measure");
+    }
+    out.bullets(lines);
+}
+
+} // namespace sivid::report
+
+#endif
