@@ -26,8 +26,8 @@ namespace sivid {
 /// By how much the readings of a channel leap where they wrap: the median of their leaps, in all
 /// records. Leaps are steps of about one size, of which all other steps are at most a third.
 ///   Leaps that the next step undoes are noise at the end of the range, or outliers. Of an angle,
-/// one other leap, of about a full turn, is enough; else there have to be two more one way than the
-/// other.
+/// one other leap, of about a full turn, is enough; else a record has to go through two turns, or
+/// all leaps are one way and there are two.
 /// @param turn  a full turn in the unit of the channel; 0: it is no angle
 /// @returns  0 where they do not wrap
 [[nodiscard]] SIVID_DECL double wrapping_range(std::vector<record> const& records,

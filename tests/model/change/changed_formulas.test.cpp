@@ -38,10 +38,10 @@ TEST_CASE("inputs, constants and sensors are named as the model sees them") {
     CHECK(changed({effects::input_gain("gain", "u", {-1_dec, 1_dec})}) ==
           lines{"u becomes u * (k_1 + 1)"});
     CHECK(changed({effects::drift("fades", "k", {0_dec, 1_dec})}) ==
-          lines{"k becomes k * (1 + t * k_1)"}); // the model has a k
+          lines{"k becomes k * (t * k_1 + 1)"}); // the model has a k
     CHECK(changed({effects::sensor_bias("offset", "p", "m", {-1_dec, 1_dec})}) ==
           lines{"the sensor p shows p + b"});
-    CHECK(changed({effects::input_lag("lag", "u", {0_dec, 1_dec})}) ==
+    CHECK(changed({effects::input_lag("lag", "u", "N", {0_dec, 1_dec}, 10)}) ==
           lines{"a further state lag.u starts at u, with lag.u' = (u - lag.u) / tau",
                 "u becomes lag.u"});
     CHECK(changed({named("sensor_lag(p)~0.5")}) ==

@@ -56,19 +56,25 @@ SIVID_DECL double wrapping_range(std::vector<record> const& records, std::size_t
     for (double const s : sizes) most = std::max(most, s);
     std::size_t leaps = 0;
     int lasting = 0, net = 0; // those that the next step does not undo; down less up
+    int farthest = 0;         // turns that a record goes through
     for (auto const& r : records) {
         auto const steps = steps_of(r, channel);
         auto const leap = [&](std::size_t k) {
             return k < steps.size() && std::abs(steps[k]) >= least * most ? steps[k] : 0.0;
         };
+        int turns = 0, lowest = 0, highest = 0;
         for (std::size_t k = 0; k < steps.size(); ++k) {
             if (leap(k) == 0) continue;
             ++leaps;
             bool const undone = leap(k) * leap(k + 1) < 0 || (k > 0 && leap(k - 1) * leap(k) < 0);
             if (undone) continue;
             ++lasting;
-            net += leap(k) < 0 ? 1 : -1;
+            turns += leap(k) < 0 ? 1 : -1;
+            lowest = std::min(lowest, turns);
+            highest = std::max(highest, turns);
         }
+        net += turns;
+        farthest = std::max(farthest, highest - lowest);
     }
     // What leaps more often than it moves on is no angle that is followed.
     if (leaps == 0 || lasting == 0 || 4 * leaps > sizes.size()) return 0;
@@ -77,7 +83,8 @@ SIVID_DECL double wrapping_range(std::vector<record> const& records, std::size_t
     if (first > 0 && sizes[first - 1] >= ordinary * most) return 0;
     double const range = sizes[first + leaps / 2];
     if (turn > 0) return std::abs(range - turn) < turn / 4 ? range : 0;
-    return std::abs(net) > 1 ? range : 0;
+    bool const one_way = lasting > 1 && std::abs(net) == lasting;
+    return farthest > 1 || one_way ? range : 0;
 }
 
 } // namespace sivid

@@ -100,7 +100,7 @@ private:
             to_->lines.push_back(
                 u + " becomes " +
                 (m.kind == memory_kind::delay   ? u + " at the time t - " + p
-                 : m.kind == memory_kind::drift ? u + " at the time t - " + p + " (t - begin)"
+                 : m.kind == memory_kind::drift ? u + " at the time t - " + p + " * (t - begin)"
                  : m.kind == memory_kind::play  ? u + " behind a play (backlash) of width 2 " + p
                                                 : u + " behind a limit " + p + " of its rate"));
         }
@@ -109,7 +109,7 @@ private:
             bool const drift = m.kind == memory_kind::drift;
             to_->lines.push_back("the sensor " + after_.about.channels[m.index].name +
                                  " shows what was at the time t - " + symbol(m) +
-                                 (drift ? " (t - begin)" : ""));
+                                 (drift ? " * (t - begin)" : ""));
         }
     }
     /// What the model sees of inputs, constants and the time; states behind which it sees them.

@@ -56,6 +56,21 @@ inline std::string instrument_advice(confined_view const& c) {
     return "look at what was different in " + part + ": all else is explained without it";
 }
 
+/// Candidates that explain the data without the answer being a part of them.
+inline std::vector<std::string> other_explanations(diagnosis_view const& v) {
+    std::vector<std::string> names;
+    for (candidate_view const& c : v.candidates) {
+        bool const explains =
+            c.state == candidate_state::explains ||
+            (c.state == candidate_state::open && is_fitted(c.fitted) && c.fitted <= 1);
+        bool const more = std::all_of(v.effects.begin(), v.effects.end(), [&c](auto const& e) {
+            return std::find(c.effects.begin(), c.effects.end(), e) != c.effects.end();
+        });
+        if (explains && !more && !c.effects.empty()) names.push_back(names_of(c.effects));
+    }
+    return names;
+}
+
 } // namespace detail
 
 SIVID_DECL table change_table(diagnosis_view const& v) {
@@ -129,11 +144,21 @@ SIVID_DECL std::vector<std::string> advice_lines(diagnosis_view const& v) {
                 ": nothing that was tried explains what is missing there");
     }
     for (end_view const& e : v.at_ends) add(end_words(e));
-    if (answered && v.indistinguishable.empty())
+    constexpr std::size_t most = 3;
+    auto others = detail::other_explanations(v);
+    if (answered && others.empty()) {
         add("nothing else that was tried explains all data, so no experiment has to tell "
             "explanations apart");
-    else if (answered && !v.next)
-        add(alternatives_clause(v));
+    } else if (answered && !v.indistinguishable.empty()) {
+        if (!v.next) add(alternatives_clause(v));
+    } else if (answered) {
+        auto const many = others.size();
+        others.resize(std::min(many, most));
+        add(enumeration(others, many > most ? ", " : " and ") +
+            (many > most ? " and " + count_text(many - most) + " others" : "") +
+            (many > 1 ? " explain" : " explains") +
+            " all data in a best fit, too, but far less well on the whole (estimate)");
+    }
     add(next_words(v));
     return lines;
 }
