@@ -57,6 +57,15 @@ TEST_CASE("wraps are counted so that readings follow the angle") {
     }
 }
 
+TEST_CASE("a start that is known beyond the range counts the turns before the first reading") {
+    auto const r = readings({-2.2, -2.1, -2.0});
+    CHECK(wraps_of(r, 0, turn / 2, 0).values() == std::vector<double>{0});
+    CHECK(wraps_of(r, 0, turn / 2, 0, -2.25).values() == std::vector<double>{0});
+    CHECK(wraps_of(r, 0, turn / 2, 0, 4.05).values() == std::vector<double>{1});
+    CHECK(wraps_of(r, 0, 1.04 * turn / 2, 0, -2.2 - 3 * turn).values() == std::vector<double>{-3});
+    CHECK(wraps_of(r, 1, turn / 2, 0, 4.05).values() == std::vector<double>{0}); // never measured
+}
+
 TEST_CASE("the range within which readings wrap is seen") {
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         support::draws d(seed);

@@ -7,6 +7,7 @@
 #include <sivid/measurement/signal.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace sivid {
@@ -20,8 +21,11 @@ namespace sivid {
 /// such a step down, midway between the two readings. What the channel shows of y is then y - n T.
 /// @param least  above 0; about half of T
 /// @param begin  no later than the samples
+/// @param start  what y is at the begin, about, where that is known: n begins at the turns that the
+///               first reading lacks
 [[nodiscard]] SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel,
-                                                 double least, double begin);
+                                                 double least, double begin,
+                                                 std::optional<double> start = {});
 
 /// By how much the readings of a channel leap where they wrap: the median of their leaps, in all
 /// records. Leaps are steps of about one size, of which all other steps are at most a third.

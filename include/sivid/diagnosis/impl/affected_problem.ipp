@@ -5,6 +5,8 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/measurement/wrapped_readings.hpp>
 
+#include <optional>
+
 namespace sivid {
 
 namespace diagnosis_detail {
@@ -27,12 +29,15 @@ inline signal switch_of(effect const& e, experiment const& x) {
     return analytic_signal::from([on](auto const&) { return on; });
 }
 /// How often a channel has wrapped in an experiment.
-inline signal wraps_in(experiment const& x, model_description const& about,
+inline signal wraps_in(experiment const& x, recorded_model const& model,
                        effect::wrapped_channel const& w) {
-    auto count =
-        wraps_of(x.measurements, index_of(about.channels, w.channel, "channel"), w.least, x.begin);
+    auto const y = index_of(model.about.channels, w.channel, "channel");
+    auto const& shown = model.g[model.observe[y]];
+    std::optional<double> start; // of a state that the channel shows as it is
+    if (shown.op == operation::state) start = mid(x.initial[static_cast<std::size_t>(shown.index)]);
+    auto count = wraps_of(x.measurements, y, w.least, x.begin, start);
     if (count.values().size() > 1) return count;
-    return analytic_signal::from([](auto const&) { return 0.0; });
+    return analytic_signal::from([n = count.values()[0]](auto const&) { return n; });
 }
 } // namespace diagnosis_detail
 
@@ -55,9 +60,8 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
                 });
             };
             auto const own = of("");
-            auto const& about = base.model.about;
             x.inputs.push_back(own == effects.end()
-                                   ? diagnosis_detail::wraps_in(x, about, *of(".wraps")->wraps)
+                                   ? diagnosis_detail::wraps_in(x, base.model, *of(".wraps")->wraps)
                                    : diagnosis_detail::switch_of(*own, x));
         }
     }

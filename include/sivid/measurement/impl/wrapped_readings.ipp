@@ -32,10 +32,12 @@ SIVID_DECL std::vector<double> steps_of(record const& samples, std::size_t chann
 }
 
 SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel, double least,
-                                   double begin) {
+                                   double begin, std::optional<double> start) {
     auto const own = measurement_detail::readings_of(samples, channel);
     auto const steps = steps_of(samples, channel);
-    std::vector<double> times{begin}, counts{0};
+    bool const known = start && !own.empty() && std::isfinite(*start);
+    double const first = known ? std::round((*start - mid(own[0].bound)) / (2 * least)) : 0;
+    std::vector<double> times{begin}, counts{first};
     for (std::size_t k = 0; k < steps.size(); ++k) {
         if (!(std::abs(steps[k]) >= least)) continue;
         double const at = std::midpoint(own[k].time, own[k + 1].time);

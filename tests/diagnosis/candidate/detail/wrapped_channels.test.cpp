@@ -64,6 +64,12 @@ TEST_CASE("readings that wrap are those of the model with the effect, in each ex
             CHECK(std::abs(mid(wrapped.bound) + 0.9 * turns - mid(real.bound)) < 1e-9);
         }
     }
+    // An experiment that begins two turns away begins with them.
+    auto far = problem;
+    far.experiments[0].initial[0] = interval(1.8);
+    auto const& first = affected(far, all).experiments[0].inputs.back();
+    REQUIRE(std::holds_alternative<sampled_signal>(first));
+    CHECK(std::get<sampled_signal>(first).values()[0] == 2);
     // In some experiments only it has a switch, too.
     auto const some = affected(problem, {only_within(all[0], {"E2"})});
     CHECK(some.model.about.inputs.size() == p.model.about.inputs.size() + 1);
