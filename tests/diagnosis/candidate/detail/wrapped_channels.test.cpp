@@ -67,7 +67,8 @@ TEST_CASE("readings that wrap are those of the model with the effect, in each ex
     // An experiment that begins two turns away begins with them.
     auto far = problem;
     far.experiments[0].initial[0] = interval(1.8);
-    auto const& first = affected(far, all).experiments[0].inputs.back();
+    auto const posed = affected(far, all);
+    auto const& first = posed.experiments[0].inputs.back();
     REQUIRE(std::holds_alternative<sampled_signal>(first));
     CHECK(std::get<sampled_signal>(first).values()[0] == 2);
     // In some experiments only it has a switch, too.
