@@ -228,7 +228,7 @@ SIVID_DECL effect sensor_saturation(std::string const& name, std::string const& 
 
 SIVID_DECL effect sensor_wrap(std::string const& name, std::string const& channel,
                               std::string const& unit, range const& T, double least) {
-    auto e = detail::one(name, "T", unit, T, "readings of " + channel + " that wrap", 2);
+    auto e = detail::one(name, "T", unit, T, "wrapping of the sensor " + channel, 2);
     e.on_channels = [channel](effect_scope& m) { m.channel(channel) -= m.parameter() * m.wraps(); };
     e.wraps = {channel, least};
     return e;

@@ -133,11 +133,14 @@ TEST_CASE("the instrument whose fault is the answer is the first place") {
     d.where[1].kind = d.where[2].kind = "sensor";
     d.where[1].name = "r";
     d.where[2].name = "v";
+    for (auto& w : d.where) w.law = "latency", w.estimate = 0.5; // looked so before
     auto const first = [&d] { return d.where.front().kind + " " + d.where.front().name; };
     suspect_instrument(d);
     CHECK(first() == "sensor v");
     CHECK(d.where.size() == 3);
+    CHECK((d.where[0].law.empty() && !d.where[0].estimate));
     CHECK(d.where[1].kind == "equation");
+    CHECK(d.where[1].law == "latency");
     d.effects = {"sensor_lag(x:y)~0.5"};
     suspect_instrument(d);
     CHECK(first() == "sensor x");

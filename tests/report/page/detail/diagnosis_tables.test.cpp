@@ -35,6 +35,8 @@ TEST_CASE("diagnosis tables: the summary point by point") {
     CHECK_THAT(t.rows[2][1], ContainsSubstring("2 of the 12 candidates tried are excluded"));
     CHECK_THAT(t.rows[5][1], EndsWith("(prediction, not proved)."));
     CHECK(summary_table({}).rows.size() == 1);
+    v.confined = {{.channel = "v", .factor = {1.5, 2}}};
+    CHECK(summary_table(v).rows.size() == 6); // the effect explains them
     v.singles = {12, 12};
     CHECK(summary_table(v).rows[2][1] == t.rows[2][1]);
     v.singles = {10, 10}; // two more were tried when these did not explain

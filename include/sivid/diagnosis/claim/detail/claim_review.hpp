@@ -231,10 +231,14 @@ inline void suspect_instrument(diagnosis& d) {
                std::find(suspects.begin(), suspects.end(), w.name) != suspects.end();
     });
     s.name = suspects.front();
-    if (known == d.where.end())
+    if (known == d.where.end()) {
         d.where.insert(d.where.begin(), std::move(s));
-    else
-        std::rotate(d.where.begin(), known, known + 1);
+        return;
+    }
+    std::rotate(d.where.begin(), known, known + 1);
+    if (d.answer != answer_kind::effects) return;
+    d.where.front().law.clear(); // what it looked like before it was known
+    d.where.front().estimate.reset();
 }
 
 /// Adds every assumption that a shown proof rests on to the list of all.

@@ -148,7 +148,7 @@ private:
                           line);
     }
 
-    /// An angle that wraps, though nobody said so, would be a gap that no effect explains.
+    /// An angle that wraps, though nobody said so, would be a gap that only a diagnosis names.
     void suspect_period(imported_quantity const& result) {
         for (auto const& [period, entry] :
              {std::pair{360.0, "360"},

@@ -82,17 +82,18 @@ public:
         inputs();
         rates();
         channels();
+        late_channels();
     }
 
 private:
     void say(std::string const& what, std::string const& how, std::string const& formula) {
         to_->lines.push_back(what + how + formula);
     }
-    /// Delays, plays, rate limits and slow clocks, of inputs first.
+    [[nodiscard]] std::string symbol(signal_memory const& m) const {
+        return to_->symbols.at(after_.about.constants[m.constant].name);
+    }
+    /// Delays, plays, rate limits and slow clocks of inputs.
     void remembered() {
-        auto const symbol = [this](signal_memory const& m) {
-            return to_->symbols.at(after_.about.constants[m.constant].name);
-        };
         for (auto k = base_->input_memory.size(); k < after_.input_memory.size(); ++k) {
             auto const& m = after_.input_memory[k];
             auto const& u = after_.about.inputs[m.index].name;
@@ -103,13 +104,6 @@ private:
                  : m.kind == memory_kind::drift ? u + " at the time t - " + p + " * (t - begin)"
                  : m.kind == memory_kind::play  ? u + " behind a play (backlash) of width 2 " + p
                                                 : u + " behind a limit " + p + " of its rate"));
-        }
-        for (auto k = base_->channel_delays.size(); k < after_.channel_delays.size(); ++k) {
-            auto const& m = after_.channel_delays[k];
-            bool const drift = m.kind == memory_kind::drift;
-            to_->lines.push_back("the sensor " + after_.about.channels[m.index].name +
-                                 " shows what was at the time t - " + symbol(m) +
-                                 (drift ? " * (t - begin)" : ""));
         }
     }
     /// What the model sees of inputs, constants and the time; states behind which it sees them.
@@ -153,6 +147,15 @@ private:
             if (after_.observe[y] != old[y])
                 say("the sensor " + base_->about.channels[y].name, " shows ",
                     text(after_, after_.observe[y], names));
+        }
+    }
+    void late_channels() {
+        for (auto k = base_->channel_delays.size(); k < after_.channel_delays.size(); ++k) {
+            auto const& m = after_.channel_delays[k];
+            bool const drift = m.kind == memory_kind::drift;
+            to_->lines.push_back("the sensor " + after_.about.channels[m.index].name +
+                                 " shows what was at the time t - " + symbol(m) +
+                                 (drift ? " * (t - begin)" : ""));
         }
     }
     void added_state(recorded_model const& m, std::size_t i, leaf_names const& names) {

@@ -74,7 +74,8 @@ SIVID_DECL table summary_table(diagnosis_view const& v) {
     };
     add("Gap", gap_clause(v));
     if (!v.places.empty()) add("Where", place_clause(v.places.front()));
-    if (!v.confined.empty()) add("Data", confined_clause(v.confined.front()));
+    bool const answered = v.answer == answer_state::effects && !v.effects.empty();
+    if (!v.confined.empty() && !answered) add("Data", confined_clause(v.confined.front()));
     std::size_t const tried = effects_tried(v);
     std::size_t excluded = 0;
     for (candidate_view const& c : v.candidates) {
@@ -88,7 +89,7 @@ SIVID_DECL table summary_table(diagnosis_view const& v) {
             ? ""
             : "; " + count_text(excluded) + " of the " + count_text(tried) + " candidates tried" +
                   (beyond ? ", those beyond the plan among them," : "") + " are excluded (proved)";
-    if (v.answer == answer_state::effects && !v.effects.empty()) {
+    if (answered) {
         add("Effect", answer_clause(v) + count + (v.interrupted && !all.empty() ? "; " + all : ""));
     } else if (v.answer == answer_state::unexplained) {
         add("Effect", "no candidate was found that explains the data" +
