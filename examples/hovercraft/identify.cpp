@@ -12,6 +12,7 @@
 #ifdef SIVID_HAS_MPI
 #include <sivid/cluster/identify.hpp>
 #endif
+#include <sivid/diagnosis/identify_remembering.hpp>
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/dataset.hpp>
@@ -286,6 +287,22 @@ int help(identify_command const& c, sivid::identification_problem const& problem
     return console::done;
 }
 
+/// Whether something is asked for that needs a search of boxes.
+bool asks_for_more(identify_command const& c) {
+    return c.online || c.compare || c.verdict_only || c.checkpoint || c.resume ||
+           c.fewest_outliers || c.identifiability || several(c) || c.algorithm != "contracting" ||
+           c.how.method != "taylor" || c.how.set != "taylor-model";
+}
+/// Slice by slice.
+sivid::identification remembered(remembering_problem const& p,
+                                 sivid::identify_options const& options) {
+    sivid::effect_hull_options slices;
+    slices.seconds = options.search.seconds;
+    slices.keep_going = options.search.keep_going;
+    slices.test.workers = options.search.workers;
+    return sivid::identify_remembering(p.base, p.effects, slices);
+}
+
 sivid::online_options online_options_of(identify_command const& c) {
     sivid::online_options options;
     if (c.accuracy) {
@@ -304,7 +321,13 @@ int run(identify_command const& c) {
     auto const begun = std::chrono::steady_clock::now();
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
-    auto problem = posed(data, model, c.effects, c.outliers);
+    std::optional<remembering_problem> remembering;
+    auto problem = posed(data, model, c.effects, c.outliers, &remembering);
+    if (remembering && asks_for_more(c))
+        throw bad_request(
+            "effects that delay, a backlash or a rate limit, and lags that begin where "
+            "other effects say, are identified slice by slice, by one process: give a budget and "
+            "no other options of a search");
     auto const title = title_of(data, c.effects);
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
@@ -387,10 +410,11 @@ int run(identify_command const& c) {
                       "; Ctrl-C stops early)");
     std::string shared; // how the ranks shared the work
     // Without a witness any number of outliers may be needed: there is nothing to invert.
-    auto found = fewest && !fewest->witness ? nothing_known(problem)
-                 : c.online                 ? identify_online(problem, online_options_of(c), limit,
-                                                              console::interrupted, std::cout)
-                                            : identified(c, problem, options, digest, shared);
+    auto found = remembering                  ? remembered(*remembering, options)
+                 : fewest && !fewest->witness ? nothing_known(problem)
+                 : c.online ? identify_online(problem, online_options_of(c), limit,
+                                              console::interrupted, std::cout)
+                            : identified(c, problem, options, digest, shared);
     progress.finish();
     auto const name_reason = [&full](sivid::identification& of) {
         if (!full || of.reason != sivid::stop_reason::cancelled || console::interrupted()) return;
@@ -465,7 +489,10 @@ int run(identify_command const& c) {
         files.commit();
     }
     limit.allow(completing);
-    if (auto const motion = sivid::find_explaining_motion(problem, found, 240, limit)) {
+    // Nobody integrates what remembers along a line of times that it does not know.
+    auto const motion =
+        remembering ? std::nullopt : sivid::find_explaining_motion(problem, found, 240, limit);
+    if (motion) {
         view = viewed(&*motion);
         auto const replace = [&c](char const* name, std::string const& text) {
             sivid::file_set file(c.out);

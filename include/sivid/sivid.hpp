@@ -209,6 +209,7 @@
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/holdout.hpp>
+#include <sivid/diagnosis/identify_remembering.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/executor.hpp>

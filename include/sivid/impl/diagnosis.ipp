@@ -13,6 +13,7 @@
 #include <sivid/diagnosis/impl/affected_problem.ipp>
 #include <sivid/diagnosis/impl/diagnose.ipp>
 #include <sivid/diagnosis/impl/diagnosis_run.ipp>
+#include <sivid/diagnosis/impl/identify_remembering.ipp>
 #include <sivid/diagnosis/impl/manoeuvre.ipp>
 
 #endif
