@@ -121,8 +121,11 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
     }
     if (!view.statistics.before.empty()) std::cout << "  " << view.statistics.before << "\n";
     for (auto const& words : view.statistics.why) std::cout << "  " << words << "\n";
-    std::cout << "  " << report::duration_text(found.seconds) << ", " << found.boxes << " boxes, "
-              << found.integrations << " validated integrations\n"
+    std::cout << "  " << report::duration_text(found.seconds);
+    if (found.boxes > 0) // else nobody counted
+        std::cout << ", " << found.boxes << " boxes, " << found.integrations
+                  << " validated integrations";
+    std::cout << "\n"
               << "  written: " << (out / "report.html").string()
               << " and result.json, boxes.csv, outputs.csv beside it\n";
 }
@@ -291,13 +294,14 @@ int help(identify_command const& c, sivid::identification_problem const& problem
 bool asks_for_more(identify_command const& c) {
     return c.online || c.compare || c.verdict_only || c.checkpoint || c.resume ||
            c.fewest_outliers || c.identifiability || several(c) || c.algorithm != "contracting" ||
-           c.how.method != "taylor" || c.how.set != "taylor-model";
+           c.how.method != "taylor" || c.how.set != "taylor-model" || c.accuracy || c.memory;
 }
 /// Slice by slice.
 sivid::identification remembered(remembering_problem const& p,
                                  sivid::identify_options const& options) {
     sivid::effect_hull_options slices;
     slices.seconds = options.search.seconds;
+    slices.boxes = std::min(slices.boxes, options.search.boxes);
     slices.keep_going = options.search.keep_going;
     slices.test.workers = options.search.workers;
     return sivid::identify_remembering(p.base, p.effects, slices);

@@ -190,6 +190,10 @@ TEST_CASE("a channel that wraps is found beside another effect") {
     CHECK(contains(*c.parameters[0].hull, 0.75));
     CHECK(contains(*c.parameters[1].hull, 0.625));
     CHECK(d.change.lines.front().starts_with("v' becomes v' - "));
+    REQUIRE(!c.assumptions.empty()); // what its number of turns rests on, with all that is assumed
+    CHECK(c.assumptions.front().starts_with("p has wrapped as often as its readings leap by "));
+    CHECK(std::find(d.assumptions.begin(), d.assumptions.end(), c.assumptions.front()) !=
+          d.assumptions.end());
 }
 
 TEST_CASE("readings that are too coarse for their bounds are told by their steps") {

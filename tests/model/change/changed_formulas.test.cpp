@@ -63,6 +63,20 @@ TEST_CASE("what is remembered is said in words") {
     CHECK_THAT(wraps[1], StartsWith("sensor_wrap.wraps counts how often the readings of p"));
 }
 
+TEST_CASE("what an input or a constant has become is called by its name in rates and sensors") {
+    effect film;
+    film.name = "film";
+    film.parameters = {{"f", "1/s", 0_dec, 1_dec, 0_dec}};
+    film.on_rates = [](effect_scope& m) {
+        m.rate("v") -= m.parameter() * m.state("v") / m.constant("d") + m.input("u");
+    };
+    // Whoever applies the lines one kind after the other must not change d, or u, twice.
+    CHECK(changed({effects::drift("fades", "d", {0_dec, 1_dec}),
+                   effects::input_gain("gain", "u", {-1_dec, 1_dec}), film}) ==
+          lines{"u becomes u * (k_2 + 1)", "d becomes d * (t * k_1 + 1)",
+                "v' becomes v' - (u + v * f / d)"});
+}
+
 TEST_CASE("several effects keep their parameters apart, and their times") {
     auto const both = formulas_of(record_model(small_campaign::cart{}),
                                   {effects::quadratic_damping("drag", "v", "1/m", {0_dec, 1_dec}),

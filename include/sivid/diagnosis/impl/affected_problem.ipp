@@ -34,7 +34,8 @@ inline signal wraps_in(experiment const& x, recorded_model const& model,
     auto const y = index_of(model.about.channels, w.channel, "channel");
     auto const& shown = model.g[model.observe[y]];
     std::optional<double> start; // of a state that the channel shows as it is
-    if (shown.op == operation::state) start = mid(x.initial[static_cast<std::size_t>(shown.index)]);
+    auto const i = static_cast<std::size_t>(shown.index);
+    if (shown.op == operation::state && i < x.initial.size()) start = mid(x.initial[i]);
     auto count = wraps_of(x.measurements, y, w.least, x.begin, start);
     if (count.values().size() > 1) return count;
     return analytic_signal::from([n = count.values()[0]](auto const&) { return n; });

@@ -65,7 +65,7 @@ SIVID_DECL identification identify_remembering(identification_problem const& bas
     bool const ended = options.keep_going && !options.keep_going();
     result.reason = none      ? stop_reason::decided
                     : ended   ? stop_reason::cancelled
-                    : limit() ? stop_reason::hulls_rest
+                    : limit() ? stop_reason::accuracy_reached // of slices
                               : stop_reason::time_budget;
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

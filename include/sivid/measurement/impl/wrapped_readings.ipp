@@ -21,20 +21,23 @@ namespace measurement_detail {
     return result;
 }
 
+[[nodiscard]] inline std::vector<double> steps_between(record const& readings) {
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < readings.size(); ++k)
+        steps.push_back(mid(readings[k].bound) - mid(readings[k - 1].bound));
+    return steps;
+}
+
 } // namespace measurement_detail
 
 SIVID_DECL std::vector<double> steps_of(record const& samples, std::size_t channel) {
-    auto const own = measurement_detail::readings_of(samples, channel);
-    std::vector<double> steps;
-    for (std::size_t k = 1; k < own.size(); ++k)
-        steps.push_back(mid(own[k].bound) - mid(own[k - 1].bound));
-    return steps;
+    return measurement_detail::steps_between(measurement_detail::readings_of(samples, channel));
 }
 
 SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel, double least,
                                    double begin, std::optional<double> start) {
     auto const own = measurement_detail::readings_of(samples, channel);
-    auto const steps = steps_of(samples, channel);
+    auto const steps = measurement_detail::steps_between(own);
     bool const known = start && !own.empty() && std::isfinite(*start);
     double const first = known ? std::round((*start - mid(own[0].bound)) / (2 * least)) : 0;
     std::vector<double> times{begin}, counts{first};
@@ -51,16 +54,18 @@ SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel, d
 SIVID_DECL double wrapping_range(std::vector<record> const& records, std::size_t channel,
                                  double turn) {
     constexpr double least = 0.6, ordinary = 1.0 / 3; // of the largest step
+    std::vector<std::vector<double>> all;
     std::vector<double> sizes;
-    double most = 0;
-    for (auto const& r : records)
-        for (double const s : steps_of(r, channel)) sizes.push_back(std::abs(s));
-    for (double const s : sizes) most = std::max(most, s);
+    for (auto const& r : records) {
+        all.push_back(steps_of(r, channel));
+        for (double const s : all.back()) sizes.push_back(std::abs(s));
+    }
+    std::sort(sizes.begin(), sizes.end());
+    double const most = sizes.empty() ? 0 : sizes.back();
     std::size_t leaps = 0;
     int lasting = 0, net = 0; // those that the next step does not undo; down less up
     int farthest = 0;         // turns that a record goes through
-    for (auto const& r : records) {
-        auto const steps = steps_of(r, channel);
+    for (auto const& steps : all) {
         auto const leap = [&](std::size_t k) {
             return k < steps.size() && std::abs(steps[k]) >= least * most ? steps[k] : 0.0;
         };
@@ -79,8 +84,7 @@ SIVID_DECL double wrapping_range(std::vector<record> const& records, std::size_t
         farthest = std::max(farthest, highest - lowest);
     }
     // What leaps more often than it moves on is no angle that is followed.
-    if (leaps == 0 || lasting == 0 || 4 * leaps > sizes.size()) return 0;
-    std::sort(sizes.begin(), sizes.end());
+    if (lasting == 0 || 4 * leaps > sizes.size()) return 0;
     auto const first = sizes.size() - leaps;
     if (first > 0 && sizes[first - 1] >= ordinary * most) return 0;
     double const range = sizes[first + leaps / 2];

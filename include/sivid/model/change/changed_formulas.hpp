@@ -14,9 +14,11 @@ namespace sivid {
 
 /// What effects change in a model, for whoever writes its simulator.
 struct changed_formulas {
-    /// In the order in which they apply, "delta becomes max(delta - b, 0) + min(delta + b, 0)" or
-    /// "v' becomes v' - k Ff v / (V m)", where v' on the right is the model's own rate. The last
-    /// ones say where and when effects act that do not act everywhere.
+    /// "delta becomes max(delta - b, 0) + min(delta + b, 0)" or "v' becomes v' - k * Ff * v / m":
+    /// what is remembered of inputs, then inputs and constants, then rates, then sensors. Lines of
+    /// one kind take effect together: on the right stands what was there before, v' is the rate
+    /// that the model has with the changed inputs and constants. The last lines say where and when
+    /// effects act that do not act everywhere.
     std::vector<std::string> lines;
     /// By full name, "wind.wx", the symbol that stands for a parameter in them: "wx", or "k_1" and
     /// "k_2" where several effects, or an effect and the model, have a k.

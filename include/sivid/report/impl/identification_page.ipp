@@ -41,8 +41,10 @@ inline void add_key_figures(page& out, identification_view const& v) {
                          "of the prior's volume (inner)"});
     }
     cards.push_back({"time", duration_text(v.statistics.seconds), v.statistics.stop_reason});
-    cards.push_back({"boxes", count_text(v.statistics.boxes), ""});
-    cards.push_back({"integrations", count_text(v.statistics.integrations), "validated"});
+    if (v.statistics.boxes > 0) { // else nobody counted
+        cards.push_back({"boxes", count_text(v.statistics.boxes), ""});
+        cards.push_back({"integrations", count_text(v.statistics.integrations), "validated"});
+    }
     std::size_t measurements = 0, fit = 0;
     for (scenario_view const& s : v.scenarios) {
         measurements += s.role == "fit" ? s.measurements : 0;

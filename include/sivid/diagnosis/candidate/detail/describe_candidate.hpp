@@ -6,6 +6,7 @@
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/structure/find_combinations.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -106,6 +107,11 @@ inline void add_constants_at_ends(std::vector<std::string> const& effects,
     c.score = s.figures.score(measurements);
     for (std::size_t j = own; j < s.fit.parameters.size(); ++j) {
         c.parameters.push_back(named_parameter(s.problem, j, s.fit.parameters[j]));
+    }
+    for (auto const e : s.figures.effects) {
+        if (auto const& w = catalogue[e].wraps)
+            c.assumptions.push_back(w->channel + " has wrapped as often as its readings leap by " +
+                                    nearest_text(w->least) + " or more");
     }
     return c;
 }

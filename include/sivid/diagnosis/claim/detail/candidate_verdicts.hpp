@@ -52,7 +52,8 @@ private:
             auto& c = run_->result.causes[k];
             auto proved = verify_fit(s, effort_->test());
             c.inflation = proved.range;
-            c.assumptions = proved.assumptions;
+            c.assumptions.insert(c.assumptions.end(), proved.assumptions.begin(),
+                                 proved.assumptions.end());
             if (proved.range.upper() <= 1) c.verdict = cause_verdict::explains;
             if (proved.witness) {
                 c.witness = named(s.problem, proved.witness->parameters, proved.witness->starts);

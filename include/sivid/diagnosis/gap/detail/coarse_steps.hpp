@@ -17,6 +17,7 @@ namespace sivid {
 /// by more than half a step, or a whole one. Of fewer than ten readings, or four values, any step
 /// is chance.
 /// @param grown  the problem with larger bounds of the part
+/// @given  the part is of one channel
 /// @guarantee  with bounds that are so much wider, at least what `grown` allows is allowed
 [[nodiscard]] inline std::optional<reading_steps>
 coarse_steps(identification_problem const& p, data_part const& part,

@@ -112,7 +112,7 @@ private:
         auto const names = names_in(seen_);
         for (auto i = base_->rate.size(); i < before_.rate.size(); ++i)
             added_state(before_, i, names_in(before_));
-        auto k = seen_.rate.size() - about.inputs.size() - about.constants.size() - 1;
+        auto k = first_seen();
         auto const show = [&](std::string const& name, operation op, std::size_t index) {
             auto const i = seen_.rate[k++];
             auto const& n = seen_.g[i];
@@ -128,7 +128,7 @@ private:
     void rates() {
         auto& g = after_.g;
         auto const old = own_rates();
-        auto names = names_in(after_);
+        auto names = names_of_changed();
         for (std::size_t i = 0; i < old.size(); ++i) {
             // A leaf is as short as its name.
             if (!is_leaf(g[old[i]].op)) names.nodes[old[i]] = rate_name(i);
@@ -142,7 +142,7 @@ private:
     void channels() {
         auto& g = after_.g;
         auto const old = copy_into(g, before_.g, before_.observe, same_leaf);
-        auto const names = names_in(after_);
+        auto const names = names_of_changed();
         for (std::size_t y = 0; y < base_->observe.size(); ++y) {
             if (after_.observe[y] != old[y])
                 say("the sensor " + base_->about.channels[y].name, " shows ",
@@ -166,6 +166,25 @@ private:
                     text(m, a.at_begin, names) + ", with " + name +
                         "' = " + text(m, m.rate[i], names));
         }
+    }
+    [[nodiscard]] std::size_t first_seen() const {
+        return seen_.rate.size() - base_->about.inputs.size() - base_->about.constants.size() - 1;
+    }
+    /// In the graph with all effects: what an input or a constant has become has its name.
+    [[nodiscard]] leaf_names names_of_changed() {
+        auto names = names_in(after_);
+        auto const& about = base_->about;
+        std::vector<node_id> const seen(
+            seen_.rate.begin() + static_cast<std::ptrdiff_t>(first_seen()), seen_.rate.end());
+        auto const now = copy_into(after_.g, seen_.g, seen, same_leaf);
+        auto const name = [&](std::size_t k, std::string const& as) {
+            if (!is_leaf(after_.g[now[k]].op)) names.nodes[now[k]] = as;
+        };
+        auto const inputs = about.inputs.size(), constants = about.constants.size();
+        for (std::size_t u = 0; u < inputs; ++u) name(u, about.inputs[u].name);
+        for (std::size_t c = 0; c < constants; ++c) name(inputs + c, about.constants[c].name);
+        name(inputs + constants, "t");
+        return names;
     }
     /// The model's own rates, in the graph with the effects.
     [[nodiscard]] std::vector<node_id> own_rates() {

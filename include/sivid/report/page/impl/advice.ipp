@@ -142,22 +142,25 @@ SIVID_DECL std::vector<std::string> advice_lines(diagnosis_view const& v) {
                      ? ""
                      : " (" + window_text(places.front().where) + ")") +
                 ": nothing that was tried explains what is missing there");
+        if (v.confined.empty() && places.empty())
+            add("nothing that was tried explains the data, and no place stands out: look at error "
+                "bounds and priors, or measure more channels");
     }
     for (end_view const& e : v.at_ends) add(end_words(e));
     constexpr std::size_t most = 3;
     auto others = detail::other_explanations(v);
-    if (answered && others.empty()) {
-        add("nothing else that was tried explains all data, so no experiment has to tell "
+    if (answered && others.empty() && v.indistinguishable.empty()) {
+        add("no other candidate was found to explain all data, so no experiment has to tell "
             "explanations apart");
     } else if (answered && !v.indistinguishable.empty()) {
         if (!v.next) add(alternatives_clause(v));
     } else if (answered) {
         auto const many = others.size();
         others.resize(std::min(many, most));
-        add(enumeration(others, many > most ? ", " : " and ") +
-            (many > most ? " and " + count_text(many - most) + " others" : "") +
-            (many > 1 ? " explain" : " explains") +
-            " all data in a best fit, too, but far less well on the whole (estimate)");
+        add("other candidates explain all data in a best fit, too, but far less well on the whole "
+            "(estimate): " +
+            enumeration(others, many > most ? ", " : " and ") +
+            (many > most ? " and " + count_text(many - most) + " more" : ""));
     }
     add(next_words(v));
     return lines;
@@ -169,12 +172,10 @@ SIVID_DECL void add_advice(page& out, diagnosis_view const& v) {
     out.section("What to do now");
     if (!v.formulas.empty()) {
         out.subsection("Add to the simulator");
-        out.prose(v.formulas.size() > 1 || v.formulas.front().find('\'') != std::string::npos
-                      ? "In this order; on the right of \xE2\x80\x9C"
-                        "becomes\xE2\x80\x9D stands what the simulator has before, x' is the rate "
-                        "of x."
-                      : "On the right of \xE2\x80\x9C"
-                        "becomes\xE2\x80\x9D stands what the simulator has before.");
+        out.prose(
+            "In this order: what is remembered, inputs and constants, rates (x' is that of x), "
+            "sensors. Lines of one kind take effect together: on the right stands what was "
+            "there before.");
         std::vector<std::string> formulas;
         for (auto const& f : v.formulas) formulas.push_back(formula_text(f));
         out.bullets(formulas);

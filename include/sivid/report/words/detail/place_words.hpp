@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-/// Places, relations and data that stand alone in the words of a diagnosis's page. What is proved is called so; all else
-/// is called an estimate.
+/// Places, relations and data that stand alone in the words of a diagnosis's page. What is proved
+/// is called so; all else is called an estimate.
 namespace sivid::report {
 
 // A sign stays with its word where lines end.
