@@ -267,6 +267,13 @@ struct derived_constant {
     bool always = false; ///< follows even where the data state none of those constants
 };
 
+/// The equations of an implicit model as it states them, \f$ M (x', z) = f \f$, beside the rates
+/// that solve them: constants stand linearly in them that the rates have behind a determinant.
+struct stated_equations {
+    std::vector<std::vector<node_id>> mass; ///< by rows
+    std::vector<node_id> force;
+};
+
 /// A model as data: its description and its recorded graph. From here on nothing depends on the
 /// model's C++ type, so that constants, effects and variants are chosen at run time.
 struct recorded_model {
@@ -282,6 +289,8 @@ struct recorded_model {
     std::vector<added_state> added_states; ///< of effects (see effect.hpp)
     std::vector<input_copy> input_copies;  ///< likewise; experiments give both the same signal
     std::vector<derived_constant> derived;
+    /// Of an implicit model; of no other, nor of one whose rates effects changed.
+    std::optional<stated_equations> stated;
 
     [[nodiscard]] bool has_memory() const {
         return !input_memory.empty() || !channel_delays.empty();

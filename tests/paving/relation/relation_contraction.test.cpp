@@ -2,6 +2,7 @@
 #include <sivid/paving/relation/relation_contraction.hpp>
 
 #include "diagnosis/planted_records.hpp"
+#include "paving/relation/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/sweep.hpp"
 
@@ -106,6 +107,24 @@ TEST_CASE("positions alone tell friction from known starts, without any trajecto
     for (std::size_t j = 0; j < 5; ++j) {
         INFO(j);
         CHECK(width(rest[j]) < 0.6 * width(problem.prior[j]));
+    }
+}
+
+TEST_CASE("angles alone tell masses of a matrix that may be singular, without any trajectory") {
+    using namespace relation_support;
+    draws d(719);
+    auto const m = record_model(two_links());
+    std::vector<double> const truth{0.6, 0.12, 0.15, 0.3, 0.2};
+    identification_problem problem{m, {{"a1", "a2", "a3", "f", "d"}, {}}, prior_of_links(0.2), {}};
+    for (std::size_t k = 0; k < 2; ++k) {
+        problem.experiments.push_back(
+            record_of_links(d, m, truth, 4, 0.001, noise::uniform, support::numbered('S', k)));
+    }
+    auto const rest = contract_by_relations(problem);
+    REQUIRE(contains(rest, truth));
+    for (std::size_t j = 0; j < 3; ++j) {
+        INFO(j);
+        CHECK(width(rest[j]) < 0.5 * width(problem.prior[j]));
     }
 }
 

@@ -10,7 +10,7 @@
 
 namespace sivid {
 
-/// The rates, channels and starts of added states of a model in the graph of another one, with
+/// The rates, channels, starts of added states and stated equations of a model in the graph of another one, with
 /// other leaves. What is there of these in `to` is replaced, nothing else.
 /// @param leaf  as for `copy_into`
 /// @cost  O(size of `from`)
@@ -26,6 +26,10 @@ void copy_equations(recorded_model& to, recorded_model const& from, Leaf&& leaf)
     to.observe.assign(channels, begins);
     to.added_states.clear();
     for (auto const& a : from.added_states) to.added_states.push_back({a.state, *begins++});
+    to.stated = from.stated;
+    if (!to.stated) return;
+    for (auto& row : to.stated->mass) row = copy_into(to.g, from.g, row, leaf);
+    to.stated->force = copy_into(to.g, from.g, to.stated->force, leaf);
 }
 
 } // namespace sivid

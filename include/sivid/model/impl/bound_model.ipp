@@ -111,6 +111,12 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
     auto const split = images.begin() + static_cast<std::ptrdiff_t>(model.rate.size());
     result.rate.assign(images.begin(), split);
     result.observe.assign(split, images.end());
+    if (model.stated && !runs) {
+        auto& stated = result.stated.emplace();
+        for (auto const& row : model.stated->mass)
+            stated.mass.push_back(copy_into(g, model.g, row, leaf));
+        stated.force = copy_into(g, model.g, model.stated->force, leaf);
+    }
     if (runs) model_detail::fold_resting_states(result, inputs.size(), *runs);
 
     std::vector<node_id> x;

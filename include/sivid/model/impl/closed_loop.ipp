@@ -80,7 +80,9 @@ SIVID_DECL box closed_model::initial(box const& open, std::vector<signal> const&
 SIVID_DECL closed_loop::closed_loop(recorded_model open)
     : open_(std::move(open)),
       states_(open_.about.states.size()),
-      inputs_(open_.about.inputs.size()) {}
+      inputs_(open_.about.inputs.size()) {
+    open_.stated.reset(); // a law adds states
+}
 
 SIVID_DECL closed_loop::~closed_loop() = default;
 

@@ -377,11 +377,13 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
         result.derived.push_back(
             {d.constant, copy_into(g, base.g, {d.value}, itself).front(), d.always});
     }
+    auto const copied = result.rate;
     apply_all(&effect::on_rates);
     apply_all(&effect::on_channels);
     result.rate.clear();
     result.observe.clear();
     for (auto const& e : scope.rates_) result.rate.push_back(e.in(g));
+    if (result.rate != copied) result.stated.reset();
     for (auto const& e : scope.channels_) result.observe.push_back(e.in(g));
     for (auto const& a : result.added_states) {
         if ((g.depends(a.at_begin) & (on_state | on_time)) != 0) {

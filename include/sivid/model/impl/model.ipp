@@ -98,6 +98,7 @@ SIVID_DECL std::vector<expression> model_detail::solved_rates(recorded_model& mo
     for (auto const& c : model.about.constants) nominal.push_back(c.nominal);
     std::vector<expression> result;
     try {
+        model.stated = stated_equations{equations.matrix, equations.right};
         for (auto const y : solve_linear(g, std::move(equations), nominal))
             result.emplace_back(g, y);
     } catch (std::invalid_argument const& error) {

@@ -97,6 +97,8 @@ public:
     [[nodiscard]] std::vector<double> const& times() const { return times_; }
     /// The bound at sample k.
     [[nodiscard]] interval const& bound(std::size_t k) const { return bounds_[k]; }
+    /// What it departs by from the chord in gap k, times s (1 - s).
+    [[nodiscard]] interval const& departure(std::size_t k) const { return bend_[k]; }
     [[nodiscard]] bool covers(double from, double to) const {
         return times_.front() <= from && to <= times_.back();
     }

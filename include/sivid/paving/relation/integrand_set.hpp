@@ -6,8 +6,10 @@
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace sivid {
@@ -16,6 +18,14 @@ namespace sivid {
 struct derivative_pair {
     std::size_t r = 0, q = 0;
 };
+
+/// The first pair with this r.
+[[nodiscard]] inline std::optional<derivative_pair>
+pair_of_rate(std::vector<derivative_pair> const& pairs, std::size_t r) {
+    auto const at = std::find_if(pairs.begin(), pairs.end(),
+                                 [r](derivative_pair const& p) { return p.r == r; });
+    return at == pairs.end() ? std::nullopt : std::optional(*at);
+}
 
 namespace paving_detail {
 

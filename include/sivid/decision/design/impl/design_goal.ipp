@@ -53,6 +53,7 @@ inline std::optional<std::vector<int>> only_product(recorded_model model,
                                                     parameter_choice const& choice,
                                                     std::vector<signal> const& inputs,
                                                     node_id node) {
+    model.stated.reset();
     for (auto& r : model.rate) r = model.g.constant(0.0);
     for (auto& y : model.observe) y = node;
     model_detail::monomial_set found;

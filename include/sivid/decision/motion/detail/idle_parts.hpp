@@ -142,6 +142,7 @@ private:
     void rewrite(recorded_model const& from) {
         auto& m = problem.model;
         m.g = graph();
+        m.stated.reset();
         auto nodes = from.rate;
         nodes.insert(nodes.end(), what.margins.begin(), what.margins.end());
         auto const image = images(m.g, from, nodes);

@@ -141,6 +141,7 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
         auto const k = static_cast<std::size_t>(n.index);
         return n.op == operation::state && k == f.state ? state : to.leaf(n.op, k);
     };
+    model.stated.reset();
     model.rate = copy_into(g, source.model.g, source.model.rate, corrected);
     model.observe = copy_into(g, source.model.g, source.model.observe, plain);
     for (auto& a : model.added_states) {

@@ -41,6 +41,7 @@ struct smoothed_model {
     smoothed_model result{model, {}};
     auto& made = result.model;
     made.g = graph();
+    made.stated.reset();
     auto const modulus = [&](node_id x, graph& to) {
         bool const of_time = (to.depends(x) & on_state) == 0;
         double const epsilon = of_time ? of_states * 0x1p-20 : of_states;

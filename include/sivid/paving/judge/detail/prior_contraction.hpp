@@ -155,7 +155,7 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
                                                                work_limit const& limit) {
     if (posed.model.has_memory() || !(test.reached(posed.prior) < 0.25)) return std::nullopt;
     auto const begin = std::chrono::steady_clock::now();
-    work_limit const own(0.08 * limit.seconds(), limit);
+    work_limit const own(0.15 * limit.seconds(), limit);
     window_contraction result;
     result.rest = contract_without_runs(posed, {.keep_going = own});
     if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
@@ -192,11 +192,6 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
                std::vector<box> const& starts, identify_options const& options,
                work_limit const& limit) {
     std::optional<window_contraction> result;
-    if (options.slower_inputs) {
-        result = contract_by_slower_inputs(test, posed, fitted, starts, options, limit);
-    }
-    // Windows that were of use with slower inputs go on with the recorded ones.
-    bool again = result && result->windows > 0;
     auto hindered = posed;
     std::optional<data_test> after;
     auto const go_on_with = [&](window_contraction found) {
@@ -208,13 +203,23 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
         after.emplace(hindered, options.test);
         return true;
     };
-    if (result && !go_on_with(*std::exchange(result, std::nullopt))) return result;
     auto const asked = [&]() -> data_test& { return after ? *after : test; };
-    if (!result && options.windows && limit()) {
+    bool again = false, slowed = false;
+    if (options.windows && limit()) {
         again = starts_hinder(test, posed); // of which the equations tell nothing
         if (auto found = contract_by_equations(test, posed, limit)) {
             if (!go_on_with(*std::move(found))) return result;
         }
+    }
+    if (options.slower_inputs && limit()) {
+        if (auto found =
+                contract_by_slower_inputs(asked(), hindered, fitted, starts, options, limit)) {
+            slowed = true;
+            again = found->windows > 0; // those of use go on with the recorded inputs
+            if (!go_on_with(*std::move(found))) return result;
+        }
+    }
+    if (!slowed && !(again && after) && options.windows && limit()) {
         if (auto found = contract_by_growing_windows(asked(), hindered, options, limit)) {
             if (!go_on_with(*std::move(found))) return result;
             again = false;

@@ -18,8 +18,16 @@ enum class window_way {
     direct,   ///< from the tubes of the states in the row alone
     damped,   ///< about the middle of the coefficients, weighted (see `combine`)
     by_parts, ///< also by parts, with q' = r for states r in the row: one more sensor, sharper
-    weak      ///< under a bump, where the state itself was not measured but its integral was
+    weak,     ///< under a bump, where the state itself was not measured but its integral was
+    /// The same where what the model proves of its motions is known: the equation as it is stated,
+    /// under weights that are linear between samples (see `weak_equation`).
+    stated,
+    stated_middle ///< the same about the middle of the coefficients
 };
+
+[[nodiscard]] constexpr bool is_stated(window_way way) {
+    return way == window_way::stated || way == window_way::stated_middle;
+}
 
 /// By what the states are known between the samples.
 enum class tube_source {

@@ -11,6 +11,7 @@
 #include <sivid/paving/relation/detail/observed_motion.hpp>
 #include <sivid/paving/relation/detail/relation_row.hpp>
 #include <sivid/paving/relation/detail/relation_terms.hpp>
+#include <sivid/paving/relation/detail/stated_equation.hpp>
 #include <sivid/paving/relation/detail/weak_windows.hpp>
 #include <sivid/paving/relation/detail/window_integrals.hpp>
 #include <sivid/paving/relation/relation_finding.hpp>
@@ -77,6 +78,8 @@ public:
             bool const right = suspect == nullptr || (suspect->state != q && suspect->state != r);
             if (r != q && right) pairs_.push_back({r, q});
         }
+        auto const seen = [this](std::size_t i) { return channels_[i].has_value(); };
+        if (proved) stated_ = stated_relations(model_, problem.prior, pairs_, seen);
     }
 
     relation_windows(relation_windows const&) = delete; // what is prepared points into the graph
@@ -94,6 +97,7 @@ public:
     /// @given  `obstacle(i)` was asked
     [[nodiscard]] relation_row const& row(std::size_t i,
                                           window_way way = window_way::direct) const {
+        if (is_stated(way)) return stated_.row(i, way == window_way::stated_middle);
         return rows_.at({i, way == window_way::damped}).row;
     }
     [[nodiscard]] std::string rate_unit(std::size_t i) const {
@@ -104,6 +108,8 @@ public:
     [[nodiscard]] std::string obstacle(std::size_t i) {
         if (stopped()) return "there was no time";
         if (!obstacle_.empty()) return obstacle_;
+        if (!channels_[i] && stated_.pair_of(i))
+            return stated_.bounded(i) ? "" : "a coefficient is unbounded over the prior";
         auto const& e = prepared(i);
         if (!e.row.bounded) return "a coefficient is unbounded over the prior";
         if (!shown(i) && !weak_form(i)) return "no measurement shows " + about().states[i].name;
@@ -117,13 +123,13 @@ public:
     /// The ways in which equation i can be enclosed, the one with the fewest sensors first; of a
     /// state that is known by its integral alone the weak form, beside which others tell nothing.
     [[nodiscard]] std::vector<window_way> ways(std::size_t i) {
-        if (!shown(i) || (!channels_[i] && weak_pair(i))) return {window_way::weak};
+        std::vector<window_way> const stated{window_way::stated, window_way::stated_middle};
+        if (!channels_[i] && stated_.pair_of(i)) return stated;
+        if (!shown(i)) return {window_way::weak};
         std::vector<window_way> result{window_way::direct};
         if (!pairs_of(i).empty()) result.push_back(window_way::by_parts);
-        if (source_ == tube_source::proved) {
-            result.push_back(window_way::damped);
-            if (weak_pair(i)) result.push_back(window_way::weak);
-        }
+        if (source_ == tube_source::proved) result.push_back(window_way::damped);
+        if (stated_.pair_of(i)) result.insert(result.end(), stated.begin(), stated.end());
         return result;
     }
 
@@ -133,7 +139,7 @@ public:
     }
     /// Windows of many lengths, from a gap to the whole record (`spread_windows`).
     [[nodiscard]] std::vector<window_row> spread(std::size_t i, window_way way) {
-        if (way == window_way::weak) return all(i, way);
+        if (way == window_way::weak || is_stated(way)) return all(i, way);
         std::vector<window_row> result;
         auto const& e = integrated(i, way);
         for (std::size_t m = 0; m < motions_.size() && !stopped(); ++m) {
@@ -161,7 +167,7 @@ public:
     /// @given  `obstacle(i)` was asked
     [[nodiscard]] std::optional<window_row> over(std::size_t i, window_way way,
                                                  relation_window const& at) {
-        if (way == window_way::weak) return std::nullopt;
+        if (way == window_way::weak || is_stated(way)) return std::nullopt;
         auto const& e = integrated(i, way);
         for (std::size_t m = 0; m < motions_.size(); ++m) {
             if (motions_[m].name != at.scenario || !own_tube(e.row, motions_[m])) continue;
@@ -177,7 +183,7 @@ public:
         if (way == window_way::by_parts) {
             for (auto const& p : pairs_of(i)) add_pair(p, tubes, result);
         } else if (way == window_way::weak) {
-            add_pair(*weak_pair(i), tubes, result);
+            add_pair(*pair_of_rate(pairs_, i), tubes, result);
             tubes.erase(i);
         }
         for (auto const s : tubes) {
@@ -254,19 +260,9 @@ private:
         }
         return result;
     }
-    [[nodiscard]] std::optional<derivative_pair> weak_pair(std::size_t i) const {
-        for (auto const& p : pairs_) {
-            if (p.r == i) return p;
-        }
-        return std::nullopt;
-    }
-    /// With everything else that a channel shows the integral of, where nothing is declared.
     [[nodiscard]] std::optional<weak_windows> weak_form(std::size_t i) {
-        auto const own = weak_pair(i);
-        if (!own) return std::nullopt;
-        bool const known = source_ == tube_source::proved;
-        auto const others = known ? pairs_ : std::vector<derivative_pair>{};
-        return weak_windows::of(model_.g, prepared(i).set, *own, others, known);
+        auto const own = pair_of_rate(pairs_, i);
+        return own ? weak_windows::of(model_.g, prepared(i).set, *own) : std::nullopt;
     }
     void add_pair(derivative_pair const& p, std::set<std::size_t>& states,
                   relation_finding& result) const {
@@ -285,6 +281,9 @@ private:
     [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
                                                   double longest) {
         std::vector<window_row> result;
+        bool const middle = way == window_way::stated_middle;
+        if (is_stated(way))
+            return stated_.windows(i, middle, motions_, shortest, longest, options_.go_on);
         if (way == window_way::weak) {
             auto const weak = weak_form(i);
             for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
@@ -393,6 +392,7 @@ private:
     std::vector<observed_motion> motions_;
     std::vector<derivative_pair> pairs_;
     std::map<std::pair<std::size_t, bool>, prepared_equation> rows_; ///< (equation, damped)
+    stated_relations stated_;                                        ///< where all is proved
 };
 
 } // namespace sivid

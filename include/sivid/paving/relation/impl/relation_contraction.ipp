@@ -36,31 +36,43 @@ known_products(relation_windows& windows, std::size_t equation) {
     using traits = interval_traits<interval>;
     std::vector<known_product> result;
     if (!windows.obstacle(equation).empty()) return result;
-    auto const& row = windows.row(equation);
-    auto const n = row.theta.size();
-    linear_system system(n);
-    std::vector<double> blur(n, 0.0);
+    // Ways of one equation share a program where they share its products.
+    struct shared_program {
+        relation_row const* row;
+        linear_system system;
+        std::vector<double> blur;
+    };
+    std::vector<shared_program> programs;
     for (auto const way : windows.ways(equation)) {
-        if (n == 0) break;
         auto const list = windows.spread(equation, way); // before its row is there
-        if (list.empty()) continue;
-        system.add(system_of(windows.row(equation, way), list));
-        auto const own = blur_of(windows.row(equation, way), list);
-        for (std::size_t j = 0; j < own.size(); ++j) blur[j] += own[j];
+        auto const& row = windows.row(equation, way);
+        auto const n = row.theta.size();
+        if (list.empty() || n == 0) continue;
+        auto at = std::find_if(programs.begin(), programs.end(),
+                               [&](auto const& p) { return p.row->theta == row.theta; });
+        if (at == programs.end())
+            at = programs.insert(at, {&row, linear_system(n), std::vector<double>(n, 0.0)});
+        at->system.add(system_of(row, list));
+        auto const own = blur_of(row, list);
+        for (std::size_t j = 0; j < own.size(); ++j) at->blur[j] += own[j];
     }
-    if (system.size() == 0 || windows.stopped()) return result;
-    for (std::size_t j = 0; j < n; ++j) {
-        std::vector<double> goal(n, 0.0);
-        goal[j] = 1;
-        double const least = proved_least(system, goal);
-        goal[j] = -1;
-        double const most = -proved_least(system, goal);
-        if (!(least <= most)) return std::nullopt;
-        auto const range =
-            traits::add(traits::point(row.anchor[j]),
-                        traits::mul(traits::point(row.width[j]), traits::bounds(least, most)));
-        result.push_back({row.theta[j], traits::intersect(range, row.range[j]), blur[j]});
-        if (is_empty(result.back().range)) return std::nullopt;
+    if (windows.stopped()) return result;
+    for (auto const& [shared, system, blur] : programs) {
+        auto const& row = *shared;
+        auto const n = row.theta.size();
+        for (std::size_t j = 0; j < n; ++j) {
+            std::vector<double> goal(n, 0.0);
+            goal[j] = 1;
+            double const least = proved_least(system, goal);
+            goal[j] = -1;
+            double const most = -proved_least(system, goal);
+            if (!(least <= most)) return std::nullopt;
+            auto const range =
+                traits::add(traits::point(row.anchor[j]),
+                            traits::mul(traits::point(row.width[j]), traits::bounds(least, most)));
+            result.push_back({row.theta[j], traits::intersect(range, row.range[j]), blur[j]});
+            if (is_empty(result.back().range)) return std::nullopt;
+        }
     }
     return result;
 }
