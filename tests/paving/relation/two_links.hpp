@@ -65,7 +65,7 @@ inline experiment record_of_links(diagnosis_support::draws& d, recorded_model co
         sine_input(d.uniform(0.5, 1), d.uniform(3, 7), seconds)};
     std::vector<double> const start{d.uniform(-1, 1), d.uniform(-1, 1), d.uniform(-1, 1), 0};
     auto const motion = simulate(m, truth, inputs, start, seconds, 0.001);
-    return measured(d, std::move(name), motion, inputs, {0, 1}, error, kind, {}, 0.02);
+    return measured(d, std::move(name), motion, inputs, {0, 1}, error, kind, {}, 0.01);
 }
 
 } // namespace relation_support

@@ -140,17 +140,17 @@ private:
     /// The states at the samples, from those and from what the cells at both sides know.
     void find_samples() {
         sample_.resize(states_);
-        for (auto const& part : parts_) {
-            auto& own = sample_[part.q];
+        for (auto const& p : parts_) {
+            auto& own = sample_[p.q];
             if (!own.empty()) continue;
             for (std::size_t k = 0; k < times_.size(); ++k)
-                own.push_back(motion_->tubes[part.q]->bound(k));
+                own.push_back(motion_->tubes[p.q]->bound(k));
             for (auto const& cell : motion_->cells) {
                 for (double const t : {cell.from, cell.to}) {
                     auto const at = std::lower_bound(times_.begin(), times_.end(), t);
                     if (at == times_.end() || *at != t) continue;
                     auto& known = own[static_cast<std::size_t>(at - times_.begin())];
-                    auto const both = traits::intersect(known, cell.at.states[part.q]);
+                    auto const both = traits::intersect(known, cell.at.states[p.q]);
                     if (!is_empty(both)) known = both;
                 }
             }
