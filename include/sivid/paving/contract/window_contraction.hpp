@@ -15,6 +15,13 @@
 
 namespace sivid {
 
+/// What is known beside windows over a prior.
+struct known_motions {
+    box rest; ///< of the prior, contains every feasible parameter
+    /// Encloses the states of experiment number e at a time, along motions that explain it.
+    std::function<box(std::size_t e, double time)> states;
+};
+
 /// How a prior is contracted by windows of the records.
 struct window_options {
     run_options run;
@@ -26,6 +33,9 @@ struct window_options {
     std::size_t windows = 8;
     /// Windows of a record that follow each other; 1: one from its begin, which grows.
     std::size_t chained = 24;
+    /// Asked as the prior shrinks. Windows then begin all along a record at once, in these states,
+    /// instead of one after the other; may be empty.
+    std::function<known_motions(box const&)> equations = nullptr;
     /// Products of two unknowns that move no measurement by more than this share of its bound are
     /// errors, no unknowns.
     double share = 0.02;

@@ -57,7 +57,11 @@ public:
             for (std::size_t e = 0; e < records_.size() && !result_.empty(); ++e) {
                 flows_.push_back(std::make_unique<flow const>(model_, problem_->choice,
                                                               problem_->experiments[e].inputs));
-                if (problem_->experiments[e].outliers == 0) follow(e, chain);
+                if (problem_->experiments[e].outliers != 0) continue;
+                if (!options_.equations)
+                    follow(e, chain);
+                else if (know(chain))
+                    spread(e, chain);
             }
             if (!result_.empty()) contract_together(some_of(std::move(chain)));
         }
@@ -168,6 +172,39 @@ private:
         return box(std::move(end));
     }
 
+    /// Asks what is known beside windows. @returns false when nothing is left
+    [[nodiscard]] bool know(std::vector<window>& windows) {
+        known_ = options_.equations(result_.rest);
+        result_.rest = known_.rest;
+        if (result_.empty()) {
+            nothing_is_left();
+            return false;
+        }
+        for (auto& w : windows) {
+            if (w.from == problem_->experiments[w.experiment].begin) continue;
+            auto const both = intersect(w.start, known_.states(w.experiment, w.from));
+            if (!is_empty(both)) w.start = both;
+        }
+        return true;
+    }
+    /// Windows all along a record, with gaps to grow into.
+    void spread(std::size_t e, std::vector<window>& chain) {
+        auto const& whole = problem_->experiments[e];
+        degree_ = highest_degree();
+        auto const count = std::max<std::size_t>(options_.windows / records_.size(), 1);
+        double const apart = (last_sample(e) - whole.begin) / static_cast<double>(count);
+        for (std::size_t k = 0; k < count && limit_(); ++k) {
+            double const at = whole.begin + apart * static_cast<double>(k);
+            double const from =
+                k == 0 ? whole.begin : end_before(records_[e], whole.begin, at - whole.begin);
+            window w{e, from, end_before(records_[e], from, 0.4 * apart),
+                     k == 0 ? whole.initial : known_.states(e, from)};
+            bool const held = std::all_of(w.start.begin(), w.start.end(),
+                                          [](interval const& side) { return is_bounded(side); });
+            if (held && w.from < w.to) chain.push_back(std::move(w));
+        }
+    }
+
     /// Windows one after the other, as long as the box carries.
     void follow(std::size_t e, std::vector<window>& chain) {
         auto const& whole = problem_->experiments[e];
@@ -248,6 +285,7 @@ private:
         for (auto const& w : windows) lengths.push_back(w.to - w.from);
         auto longest = lengths; // that each has had
         while (!windows.empty() && limit_()) {
+            if (options_.equations && result_.rounds > 0 && !know(windows)) return;
             auto const before = result_.rest;
             auto const count = windows.size();
             std::vector<std::vector<window*>> together; // eight of one experiment at a time
@@ -343,6 +381,7 @@ private:
     std::vector<std::unique_ptr<flow const>> flows_;
     std::size_t degree_ = 3;
     window_contraction result_;
+    known_motions known_; ///< where equations are asked
 };
 
 } // namespace paving_detail

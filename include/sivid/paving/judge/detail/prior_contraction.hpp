@@ -9,10 +9,12 @@
 
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/change/detail/slower_inputs.hpp>
+#include <sivid/model/structure/states_seen.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/detail/equation_guide.hpp>
 #include <sivid/paving/judge/detail/runless_contraction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
@@ -20,6 +22,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -165,6 +168,30 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
     return result;
 }
 
+/// What windows all along the records leave where equations have told something of states that are
+/// not measured, while runs over what they left end early all the same (dry friction in an arm);
+/// nothing where either is not so, or nothing is gained.
+inline std::optional<window_contraction>
+contract_by_guided_windows(data_test& test, identification_problem const& posed,
+                           identify_options const& options, work_limit const& limit) {
+    if (!(test.reached(posed.prior) < 0.25)) return std::nullopt;
+    auto seen = posed;
+    seen.model = with_states_seen(posed.model, "recorded state ");
+    double const period = 10 * sample_period(posed);
+    auto const slow = period > 0 ? with_slower_inputs(seen, period) : std::nullopt;
+    auto const& carried = slow ? *slow : posed;
+    equation_guide const guide(posed, carried, limit);
+    auto found = contract_by_windows(carried, {.run = options.test.run,
+                                               .seconds = 0.9 * limit.seconds(),
+                                               .keep_going = limit,
+                                               .workers = options.search.workers,
+                                               .windows = 16,
+                                               .equations = std::cref(guide)});
+    if (!(relative_volume(found.rest, posed.prior).upper() < 1)) return std::nullopt;
+    if (slow) found.input_period = period;
+    return found;
+}
+
 /// What one window of each experiment, from its begin, leaves where runs over the prior reach less
 /// than half of the measurements, or where there are so many parameters that halving them is slow;
 /// nothing where neither is so, or nothing is gained.
@@ -209,6 +236,11 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
         again = starts_hinder(test, posed); // of which the equations tell nothing
         if (auto found = contract_by_equations(test, posed, limit)) {
             if (!go_on_with(*std::move(found))) return result;
+            if (auto more = contract_by_guided_windows(asked(), hindered, options, limit)) {
+                go_on_with(*std::move(more));
+                if (after) result->integrations += after->integrations();
+                return result;
+            }
         }
     }
     if (options.slower_inputs && limit()) {

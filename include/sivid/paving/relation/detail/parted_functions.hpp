@@ -258,7 +258,9 @@ private:
             auto swung = swing;
             for (std::size_t p = 0; p < parts_.size(); ++p) {
                 auto const k = parts_[p].leaf;
-                if (!set.uses(j, k)) continue;
+                bool const taken = slope_[j][p][gap] != 0 || slope_[j][p][gap + 1] != 0;
+                if (!set.uses(j, k) && !taken) continue; // terms may cancel, numbers not quite
+                smooth = smooth && is_bounded(range_of_leaf(k));
                 auto const first = traits::point(slope_[j][p][gap + rising]);
                 auto const change = traits::sub(traits::point(slope_[j][p][gap + 1]), first);
                 auto const at_from = traits::add(first, traits::mul(change, from));
