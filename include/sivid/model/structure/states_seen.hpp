@@ -5,6 +5,7 @@
 #include <sivid/model/model.hpp>
 
 #include <cstddef>
+#include <string>
 
 namespace sivid {
 

@@ -54,14 +54,12 @@ public:
                               run.make == nullptr; // else by other means than these
         if (as_asked && !problem_->model.has_memory() && problem_->model.added_states.empty()) {
             std::vector<window> chain;
-            for (std::size_t e = 0; e < records_.size() && !result_.empty(); ++e) {
+            bool const left = !options_.equations || know(chain);
+            for (std::size_t e = 0; left && e < records_.size() && !result_.empty(); ++e) {
                 flows_.push_back(std::make_unique<flow const>(model_, problem_->choice,
                                                               problem_->experiments[e].inputs));
                 if (problem_->experiments[e].outliers != 0) continue;
-                if (!options_.equations)
-                    follow(e, chain);
-                else if (know(chain))
-                    spread(e, chain);
+                options_.equations ? spread(e, chain) : follow(e, chain);
             }
             if (!result_.empty()) contract_together(some_of(std::move(chain)));
         }

@@ -168,13 +168,31 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
     return result;
 }
 
-/// What windows all along the records leave where equations have told something of states that are
-/// not measured, while runs over what they left end early all the same (dry friction in an arm);
-/// nothing where either is not so, or nothing is gained.
+/// What one window of each experiment, from its begin, leaves where runs over the prior reach less
+/// than half of the measurements, or where there are so many parameters that halving them is slow;
+/// nothing where neither is so, or nothing is gained.
+/// @param share  of the time, at most
 inline std::optional<window_contraction>
-contract_by_guided_windows(data_test& test, identification_problem const& posed,
-                           identify_options const& options, work_limit const& limit) {
-    if (!(test.reached(posed.prior) < 0.25)) return std::nullopt;
+contract_by_growing_windows(data_test& test, identification_problem const& posed,
+                            identify_options const& options, work_limit const& limit,
+                            double share = 0.7) {
+    constexpr std::size_t many = 5;
+    if (posed.prior.size() < many && !(test.reached(posed.prior) < 0.5)) return std::nullopt;
+    auto found = contract_by_windows(posed, {.run = options.test.run,
+                                             .seconds = share * limit.seconds(),
+                                             .keep_going = limit,
+                                             .workers = options.search.workers,
+                                             .chained = 1});
+    if (!(relative_volume(found.rest, posed.prior).upper() < 1)) return std::nullopt;
+    return found;
+}
+
+/// What windows all along the records leave, with slower inputs where there are any, in states that
+/// equations know; nothing where nothing is gained. For what equations have told something of while
+/// runs over what they left end early all the same, such as an arm with dry friction.
+inline std::optional<window_contraction>
+contract_by_guided_windows(identification_problem const& posed, identify_options const& options,
+                           work_limit const& limit) {
     auto seen = posed;
     seen.model = with_states_seen(posed.model, "recorded state ");
     double const period = 10 * sample_period(posed);
@@ -189,23 +207,6 @@ contract_by_guided_windows(data_test& test, identification_problem const& posed,
                                                .equations = std::cref(guide)});
     if (!(relative_volume(found.rest, posed.prior).upper() < 1)) return std::nullopt;
     if (slow) found.input_period = period;
-    return found;
-}
-
-/// What one window of each experiment, from its begin, leaves where runs over the prior reach less
-/// than half of the measurements, or where there are so many parameters that halving them is slow;
-/// nothing where neither is so, or nothing is gained.
-inline std::optional<window_contraction>
-contract_by_growing_windows(data_test& test, identification_problem const& posed,
-                            identify_options const& options, work_limit const& limit) {
-    constexpr std::size_t many = 5;
-    if (posed.prior.size() < many && !(test.reached(posed.prior) < 0.5)) return std::nullopt;
-    auto found = contract_by_windows(posed, {.run = options.test.run,
-                                             .seconds = 0.7 * limit.seconds(),
-                                             .keep_going = limit,
-                                             .workers = options.search.workers,
-                                             .chained = 1});
-    if (!(relative_volume(found.rest, posed.prior).upper() < 1)) return std::nullopt;
     return found;
 }
 
@@ -236,10 +237,13 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
         again = starts_hinder(test, posed); // of which the equations tell nothing
         if (auto found = contract_by_equations(test, posed, limit)) {
             if (!go_on_with(*std::move(found))) return result;
-            if (auto more = contract_by_guided_windows(asked(), hindered, options, limit)) {
-                go_on_with(*std::move(more));
-                if (after) result->integrations += after->integrations();
-                return result;
+            if (!again && asked().reached(hindered.prior) < 0.25) {
+                // A window that grows is quick where it is of use.
+                auto more = contract_by_growing_windows(asked(), hindered, options, limit, 0.1);
+                bool const of_use =
+                    more && relative_volume(more->rest, hindered.prior).upper() < 0.5;
+                if (!of_use) more = contract_by_guided_windows(hindered, options, limit);
+                if (more && (!go_on_with(*std::move(more)) || !of_use)) return result;
             }
         }
     }
