@@ -54,9 +54,10 @@ public:
         auto const shown = carried_ == recorded_
                                ? nullptr
                                : std::make_shared<bound_model const>(opened(*carried_));
-        result.states = [this, motions, shown, rest = result.rest](std::size_t e, double t) {
+        result.states = [guide = *this, motions, shown, rest = result.rest](std::size_t e,
+                                                                            double t) {
             auto const x = states_in((*motions)[e], t);
-            return shown ? carried_states(*shown, rest, e, t, x) : x;
+            return shown ? guide.carried_states(*shown, rest, e, t, x) : x;
         };
         return result;
     }
