@@ -10,8 +10,8 @@
 
 namespace sivid {
 
-/// The rates, channels, starts of added states and stated equations of a model in the graph of another one, with
-/// other leaves. What is there of these in `to` is replaced, nothing else.
+/// The rates, channels, starts of added states and stated equations of a model in the graph of
+/// another one, with other leaves. What is there of these in `to` is replaced, nothing else.
 /// @param leaf  as for `copy_into`
 /// @cost  O(size of `from`)
 template <class Leaf>
