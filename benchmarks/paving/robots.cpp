@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Records of machines, as long and as dense as their loggers write them, each identified from a
 // cold start:
-//     sivid_benchmark_robots [--seconds S] [--no-windows] [--as-recorded] [--growth] [NAME...]
+//     sivid_benchmark_robots [--seconds S] [--no-windows] [--as-recorded] [--equations] [--growth]
+//     [NAME...]
 // Beside the hulls, in shares of the prior, stands a plain least-squares fit of the same record
-// (not proved). --as-recorded: no search with slower inputs first. --growth: how the cost grows
+// (not proved). --as-recorded: no search with slower inputs first. --equations: what the
+// state equations leave of the prior by themselves, no trajectory. --growth: how the cost grows
 // with samples, constants, states, experiments.
 #include "machines.hpp"
 #include "model.hpp"
@@ -11,6 +13,7 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/relation/relation_contraction.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -92,6 +95,27 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// The sides of what is left, in shares of the prior; each holds the truth, or else that is said.
+void show_sides(box const& left, box const& prior) {
+    bool contains_truth = true;
+    for (std::size_t j = 0; j < left.size(); ++j) {
+        std::printf(" %.3g", 100 * width(left[j]) / width(prior[j]));
+        contains_truth = contains_truth && contains(left[j], mid(prior[j]));
+    }
+    std::printf("%s", contains_truth ? "" : " TRUTH LOST");
+}
+
+void show_equations(machine const& m) {
+    auto const problem = record_of(m.make(), m.how);
+    auto const begin = std::chrono::steady_clock::now();
+    auto const left = contract_by_relations(problem);
+    double const seconds = seconds_since(begin);
+    std::printf("%s, equations alone, %% of the prior:", m.how.what.c_str());
+    show_sides(left, problem.prior);
+    std::printf(" (%.2f s)\n", seconds);
+    std::fflush(stdout);
+}
+
 void show(machine const& m, identify_options const& options) {
     auto const problem = record_of(m.make(), m.how);
     auto const begin = std::chrono::steady_clock::now();
@@ -108,13 +132,8 @@ void show(machine const& m, identify_options const& options) {
         std::printf(", left %.3g of the volume in %.1f s", w.left, w.seconds);
     }
     std::printf("\n  hulls, %% of the prior:");
-    bool contains_truth = true;
-    for (std::size_t j = 0; j < found.hull.size(); ++j) {
-        std::printf(" %.3g", 100 * width(found.hull[j]) / width(problem.prior[j]));
-        contains_truth = contains_truth && contains(found.hull[j], mid(problem.prior[j]));
-    }
-    std::printf("%s\n  least squares off by, %% of the prior:",
-                contains_truth ? "" : " TRUTH LOST");
+    show_sides(found.hull, problem.prior);
+    std::printf("\n  least squares off by, %% of the prior:");
     for (std::size_t j = 0; j < fitted.parameters.size(); ++j) {
         auto const& side = problem.prior[j];
         std::printf(" %.2g", 100 * std::abs(fitted.parameters[j] - mid(side)) / width(side));
@@ -196,6 +215,8 @@ int main(int argc, char** argv) {
         {{"arm, 10 s, torque at 1 kHz, +-20 %", 10, 100, 0.001, 0.002, 0.2}, moving_arm<false>},
         {{"arm with dry friction, 10 s, torque at 1 kHz, +-10 %", 10, 100, 0.001},
          moving_arm<true>},
+        {{"arm with dry friction, 10 s, torque at 1 kHz, +-20 %", 10, 100, 0.001, 0.002, 0.2},
+         moving_arm<true>},
         {{"car, 30 s, +-20 %", 30, 100, 0.01, 0.05, 0.2}, driven_car},
         {{"quadrotor, 20 s, +-20 %", 20, 50, 0.02, 0.01, 0.2}, flown_quadrotor},
         {{"quadrotor, 20 s, +-20 %, start +-0.05", 20, 50, 0.02, 0.01, 0.2, 0.05}, flown_quadrotor},
@@ -233,7 +254,7 @@ int main(int argc, char** argv) {
     identify_options options;
     options.search.seconds = 10;
     options.only_hulls = true;
-    bool growth = false;
+    bool growth = false, equations = false;
     std::vector<std::string> chosen;
     for (int k = 1; k < argc; ++k) {
         std::string_view const word = argv[k];
@@ -243,6 +264,8 @@ int main(int argc, char** argv) {
             options.windows = false;
         } else if (word == "--as-recorded") {
             options.slower_inputs = false;
+        } else if (word == "--equations") {
+            equations = true;
         } else if (word == "--growth") {
             growth = true;
         } else {
@@ -261,6 +284,7 @@ int main(int argc, char** argv) {
         return 0;
     }
     for (auto const& m : all) {
-        if (wanted(m.how.what)) show(m, options);
+        if (!wanted(m.how.what)) continue;
+        equations ? show_equations(m) : show(m, options);
     }
 }

@@ -68,7 +68,7 @@ struct bound_model {
     graph g;
     std::vector<node_id> rate;
     std::vector<node_id> observe;
-    std::optional<stated_equations> stated; ///< see `recorded_model`
+    std::optional<stated_equations> stated;                   ///< see `recorded_model`
     std::vector<std::vector<node_id>> rate_dx, rate_dp;       ///< \f$ \partial f/\partial x, p \f$
     std::vector<std::vector<node_id>> observe_dx, observe_dp; ///< \f$ \partial g/\partial x, p \f$
     std::vector<std::vector<node_id>> rate_du; ///< \f$ \partial f/\partial u \f$, uncertain inputs

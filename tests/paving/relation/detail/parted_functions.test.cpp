@@ -6,6 +6,9 @@
 #include "paving/relation/two_links.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
+#include <vector>
+
 using namespace diagnosis_support;
 
 namespace {
@@ -52,13 +55,37 @@ TEST_CASE("rates stand in the part that is linear between samples, with nothing 
     std::vector<std::size_t> orders;
     for (auto const& p : f.parts()) orders.push_back(p.order);
     CHECK(orders == std::vector<std::size_t>{1, 2});
+    double_rates rate(b.model);
     for (std::size_t j = 0; j < f.functions(); ++j) {
+        graph_range function(b.bound.g, {b.set.functions[j]});
+        // The function less its factors times the leaves, along the truth.
+        auto const left = [&](std::vector<double> const& x, double t, auto const& factor) {
+            double const u = inputs[0].approximate(t);
+            std::vector<double> const rates = rate(t, x, {1, 0.3}, {u});
+            leaf_ranges const at{interval(t), box{interval(x[0]), interval(x[1])}, b.prior,
+                                 box{interval(u), interval(rates[0]), interval(rates[1])}};
+            function.evaluate(at);
+            double const leaves[] = {x[1], rates[1]};
+            double value = mid(function.value(b.set.functions[j]));
+            for (std::size_t p = 0; p < 2; ++p) value -= factor(p) * leaves[p];
+            return value;
+        };
         for (std::size_t g = 0; g + 1 < f.times().size(); ++g) {
-            auto const& rest = f.rest(j, g);
-            double const u = integral(truth, f.times()[g], f.times()[g + 1],
-                                      [&](auto const&, double t) { return 2 * std::sin(3 * t); });
-            CHECK(width(rest[0]) < 2e-3);
-            CHECK(mag(rest[0]) < std::abs(u) * 1.5 + 0.01);
+            double const t0 = f.times()[g], t1 = f.times()[g + 1];
+            auto const place = [&](double t) { return (t - t0) / (t1 - t0); };
+            double const even = integral(truth, t0, t1, [&](auto const& x, double t) {
+                return left(x, t, [&](std::size_t p) {
+                    double const s = place(t);
+                    return (1 - s) * f.factor(j, p, g) + s * f.factor(j, p, g + 1);
+                });
+            });
+            double const rising = integral(truth, t0, t1, [&](auto const& x, double t) {
+                return place(t) * left(x, t, [&](std::size_t p) { return f.factor(j, p, g + 1); });
+            });
+            INFO("function " << j << ", gap " << g);
+            CHECK(contains(hull(f.rest(j, g)[0] - 1e-5, f.rest(j, g)[0] + 1e-5), even));
+            CHECK(contains(hull(f.rest(j, g)[1] - 1e-5, f.rest(j, g)[1] + 1e-5), rising));
+            CHECK(width(f.rest(j, g)[0]) < 2e-3);
         }
     }
     for (std::size_t k = 0; k < f.times().size(); ++k) {

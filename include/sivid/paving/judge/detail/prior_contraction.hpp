@@ -255,6 +255,7 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
             if (!go_on_with(*std::move(found))) return result;
         }
     }
+    // Starts that nobody knows are better served by windows all along, once equations have begun.
     if (!slowed && !(again && after) && options.windows && limit()) {
         if (auto found = contract_by_growing_windows(asked(), hindered, options, limit)) {
             if (!go_on_with(*std::move(found))) return result;

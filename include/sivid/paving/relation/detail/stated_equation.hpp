@@ -92,8 +92,9 @@ public:
                                                   std::function<bool()> const& go_on) {
         auto& e = at(i);
         for (std::size_t m = 0; !e.asked && e.plain.bounded && m < motions.size(); ++m) {
-            parted_functions const parted(e.set, e.middle.centre, motions[m],
-                                          rates_along(*model_, motions[m]), pair_of(i)->q, unseen_);
+            if (rates_.size() == m) rates_.push_back(rates_along(*model_, motions[m]));
+            parted_functions const parted(e.set, e.middle.centre, motions[m], rates_[m],
+                                          pair_of(i)->q, unseen_);
             auto more = weak_equation(parted).over(m, shortest, longest, go_on);
             std::move(more.begin(), more.end(), std::back_inserter(e.windows));
         }
@@ -128,6 +129,7 @@ private:
     box prior_;
     std::vector<derivative_pair> all_, unseen_;
     std::map<std::size_t, equation> equations_;
+    std::vector<std::vector<box>> rates_; ///< along each motion
 };
 
 } // namespace sivid
