@@ -238,3 +238,12 @@ TEST_CASE("starts that are decimals are known and those of which little is known
     REQUIRE(unknown.windows.has_value());
     CHECK(unknown.windows->windows > 0);
 }
+
+TEST_CASE("one contraction after another says which of them saw slower inputs") {
+    window_contraction equations, windows;
+    windows.input_period = 0.01;
+    windows.windows = 3;
+    CHECK(paving_detail::joined(equations, windows).input_period == 0.01);
+    CHECK(paving_detail::joined(windows, equations).input_period == 0.01);
+    CHECK(paving_detail::joined(windows, windows).windows == 6);
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/paving/relation/detail/stated_equation.hpp>
 
+#include <sivid/model/change/detail/smoothed.hpp>
+#include <sivid/model/change/substitution.hpp>
 #include <sivid/model/effects.hpp>
 
 #include "paving/relation/two_links.hpp"
@@ -99,6 +101,18 @@ TEST_CASE("a stated equation is zero along every motion, whatever was made of th
     CHECK_FALSE(pushed.stated.has_value());
     check_equations(pushed, d);
     check_equations(record_model(held_weight()), d); // forces of constraints are left out
+    auto const rounded = smoothed(m, 0.01).model;    // a graph of its own
+    CHECK_FALSE(rounded.stated.has_value());
+    // Other constants: a1 = s + d, a3 = s - d.
+    recorded_map const halves(2, [](auto const& q) {
+        return std::vector{q[0] + q[1], q[0] - q[1]};
+    });
+    auto const other = substituted(m, {"a1", "a3"},
+                                   {{"s", "kg m^2", literal{interval(0.375), 0.375}},
+                                    {"e", "kg m^2", literal{interval(0.225), 0.225}}},
+                                   halves);
+    CHECK(other.stated.has_value());
+    check_equations(other, d);
 }
 
 TEST_CASE("rates along a motion hold where they are defined") {

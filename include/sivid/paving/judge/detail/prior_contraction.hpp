@@ -60,7 +60,7 @@ inline window_contraction joined(window_contraction const& first, window_contrac
     then.longest = std::max(first.longest, then.longest);
     then.seconds += first.seconds;
     then.integrations += first.integrations;
-    then.input_period = first.input_period;
+    then.input_period = std::max(first.input_period, then.input_period);
     return then;
 }
 
