@@ -103,6 +103,14 @@ inline std::vector<planted> all_planted() {
          {1},
          box{between(-1, 1), between(-1, 1)},
          0.0005});
+    result.push_back({"two encoders on one shaft",
+                      {3, 2, 1},
+                      [](expression const&, constants x, constants p, constants u) {
+                          return list{p[0] * u[0] - p[1] * x[0], x[0], x[0]};
+                      },
+                      box{between(0.8, 2), between(1, 2)},
+                      {1, 2},
+                      box{between(-1, 1), between(-1, 1), between(-1, 1)}});
     result.push_back(
         {"two masses seen by positions",
          {4, 4, 1},

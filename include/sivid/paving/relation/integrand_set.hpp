@@ -19,6 +19,19 @@ struct derivative_pair {
     std::size_t r = 0, q = 0;
 };
 
+/// All pairs in the equations of motion, by q. Several states may have one rate: where a sum goes
+/// over pairs, each r stands in it once.
+[[nodiscard]] inline std::vector<derivative_pair> pairs_in(graph const& g,
+                                                           std::vector<node_id> const& rates) {
+    std::vector<derivative_pair> result;
+    for (std::size_t q = 0; q < rates.size(); ++q) {
+        auto const& n = g[rates[q]];
+        auto const r = static_cast<std::size_t>(n.index);
+        if (n.op == operation::state && r != q) result.push_back({r, q});
+    }
+    return result;
+}
+
 /// The first pair with this r.
 [[nodiscard]] inline std::optional<derivative_pair>
 pair_of_rate(std::vector<derivative_pair> const& pairs, std::size_t r) {

@@ -61,12 +61,8 @@ public:
             times.insert(times.end(), own.begin(), own.end());
             if (own.size() > 1) period = std::min(period, samples_[i]->period());
         }
-        for (std::size_t q = 0; q < n; ++q) {
-            auto const& rate = model.g[model.rate[q]];
-            auto const r = static_cast<std::size_t>(rate.index);
-            if (rate.op == operation::state && samples_[q] && !samples_[r])
-                pairs_.push_back({r, q});
-        }
+        for (auto const& p : pairs_in(*g_, model.rate))
+            if (samples_[p.q] && !samples_[p.r]) pairs_.push_back(p);
         set_ = integrand_set::of(*g_, model.rate, n, e.inputs.size());
         cut(std::move(times), period, e);
     }

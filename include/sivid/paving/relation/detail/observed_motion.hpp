@@ -5,6 +5,7 @@
 #include <sivid/paving/relation/channel_tube.hpp>
 #include <sivid/paving/relation/detail/model_variation.hpp>
 #include <sivid/paving/relation/input_range.hpp>
+#include <sivid/paving/relation/integrand_set.hpp>
 #include <sivid/paving/relation/state_samples.hpp>
 #include <sivid/paving/relation/time_cell.hpp>
 #include <sivid/paving/relation/time_grid.hpp>
@@ -45,6 +46,18 @@ struct observed_motion {
         return tubes[i]->over(from, to);
     }
 };
+
+/// Puts the pairs first whose q most motions sense: of several q with one r that is the one to
+/// take.
+inline void put_sensed_first(std::vector<derivative_pair>& pairs,
+                             std::vector<observed_motion> const& motions) {
+    auto const count = [&](derivative_pair const& p) {
+        return std::count_if(motions.begin(), motions.end(),
+                             [&p](observed_motion const& m) { return m.sensed[p.q].has_value(); });
+    };
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [&](auto const& a, auto const& b) { return count(a) > count(b); });
+}
 
 namespace paving_detail {
 

@@ -99,6 +99,8 @@ private:
     void add_parts(integrand_set const& set, std::size_t q,
                    std::vector<derivative_pair> const& pairs) {
         auto const add = [&](std::size_t leaf, std::size_t order) {
+            auto const same = [leaf](part const& p) { return p.leaf == leaf; };
+            if (std::any_of(parts_.begin(), parts_.end(), same)) return; // of another q with this r
             for (std::size_t j = 0; j < set.functions.size(); ++j) {
                 if (!set.uses(j, leaf)) continue;
                 parts_.push_back({leaf, q, order});

@@ -71,13 +71,12 @@ public:
                                       : observe_motion(model_, problem.prior, known, channels_,
                                                        {laws[e], {}, {}}, options.cells_per_gap));
         }
-        for (std::size_t q = 0; q < model_.state_count(); ++q) {
-            auto const& n = model_.g[model_.rate[q]];
-            if (n.op != operation::state || !channels_[q]) continue;
-            auto const r = static_cast<std::size_t>(n.index);
-            bool const right = suspect == nullptr || (suspect->state != q && suspect->state != r);
-            if (r != q && right) pairs_.push_back({r, q});
+        for (auto const& p : pairs_in(model_.g, model_.rate)) {
+            bool const right =
+                suspect == nullptr || (suspect->state != p.q && suspect->state != p.r);
+            if (channels_[p.q] && right) pairs_.push_back(p);
         }
+        put_sensed_first(pairs_, motions_);
         auto const seen = [this](std::size_t i) { return channels_[i].has_value(); };
         if (proved) stated_ = stated_relations(model_, problem.prior, pairs_, seen);
     }
@@ -252,11 +251,12 @@ private:
         auto const known = [i](observed_motion const& m) { return m.tubes[i].has_value(); };
         return channels_[i] || std::any_of(motions_.begin(), motions_.end(), known);
     }
-    /// Pairs that help with equation i: r in its row, q not its own state.
+    /// Pairs that help with equation i, one for each r in its row; q is not its own state.
     [[nodiscard]] std::vector<derivative_pair> pairs_of(std::size_t i) const {
         std::vector<derivative_pair> result;
         for (auto const& p : pairs_) {
-            if (p.q != i && shown(p.r) && row(i).states.count(p.r) > 0) result.push_back(p);
+            bool const helps = p.q != i && shown(p.r) && row(i).states.count(p.r) > 0;
+            if (helps && !pair_of_rate(result, p.r)) result.push_back(p);
         }
         return result;
     }

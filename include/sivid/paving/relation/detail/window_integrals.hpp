@@ -30,7 +30,7 @@ class window_integrals {
 
 public:
     /// @param cells   adjacent, in the order of time
-    /// @param pairs   none where the integrals are weighted
+    /// @param pairs   one for each r; none where the integrals are weighted
     /// @param growth  a: every integrand is multiplied by \f$ e^{a (t - t_{end})} \f$ [1/s]
     /// @param slow    the time over which g is straight [s]
     window_integrals(integrand_set const& set, std::vector<time_cell> const& cells,
