@@ -6,6 +6,7 @@
 
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/pack/lanes.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -114,6 +115,23 @@ TEST_CASE("unknowns: sides with a width get a variable, the others a rest") {
         set.begin(0, 0, one);
         REQUIRE(subset(side, set.hull()[0]));
         REQUIRE(set.centre[0].r() == 0);
+    }
+}
+
+TEST_CASE("the first family of lanes that stand idle is that of all of them") {
+    using side_by_side = lane_traits<lanes<8>>;
+    normalised_unknowns const first({between(1, 2), between(3, 3)}, {});
+    normalised_unknowns const second({between(5, 7), between(4, 4)}, {});
+    parametric_set<taylor_model<lanes<8>>> set(2, model_shape<lanes<8>>::of(1, 2));
+    set.begin(2, 0.5, first, true);
+    set.begin(4, 0.25, second);
+    for (std::size_t l = 0; l < 8; ++l) {
+        auto const hull = set.hull(l);
+        CAPTURE(l);
+        CHECK(subset(l == 4 ? between(5, 7) : between(1, 2), hull[0]));
+        CHECK(width(hull[0]) < (l == 4 ? 2 : 1) + 1e-9);
+        CHECK(subset(l == 4 ? between(4, 4) : between(3, 3), hull[1]));
+        CHECK(side_by_side::get(set.time, l) == (l == 4 ? 0.25 : 0.5));
     }
 }
 

@@ -222,12 +222,17 @@ void check_kernels(std::uint64_t seed, int samples) {
         REQUIRE(paving_detail::unknown_count(p.run.initial, p.prior) ==
                 static_cast<std::size_t>(std::stoi(p.name)));
         auto const taylor = make_run(*p.equations, p.run, p.run.measurements, p.prior, {});
+        // A box alone goes in scalars, several go in lanes.
         check_containment(d, p, *(*taylor)(p.run.initial, p.prior), samples);
+        for (auto const& one : (*taylor)(p.run.initial, std::vector<box>{p.prior, p.prior}))
+            check_containment(d, p, *one, samples);
         // the same object on parts, the last of them a point of the parameters
         for (double const share : {0.5, 0.1, 0.0}) {
             auto const initial = part_of(d, p.run.initial, share == 0 ? 0.5 : share);
             auto const part = part_of(d, p.prior, share);
             check_containment(d, p, *(*taylor)(initial, part), samples);
+            for (auto const& one : (*taylor)(initial, std::vector<box>{part, p.prior, part}))
+                check_containment(d, p, *one, samples);
         }
         // points have a kernel of their own
         auto const initial = part_of(d, p.run.initial, 0.0);
@@ -319,6 +324,34 @@ TEST_CASE("parts of a record side by side contain their outputs, each from its o
     auto const point = part_of(d, p.prior, 0.0);
     auto const known = run_parts(*p.equations, {parts[4], parts[4]}, point, {});
     for (auto const& answer : known) check_containment(d, own[4], *answer, 1);
+}
+
+TEST_CASE("boxes alone, few and many together contain their outputs, and say about the same") {
+    draws d(7);
+    for (auto const& p : some_models()) {
+        auto const samples = sorted(p.run.measurements);
+        auto const run = make_run(*p.equations, p.run, samples, p.prior, {});
+        std::vector<box> boxes;
+        for (int k = 0; k < 8; ++k) boxes.push_back(part_of(d, p.prior, 0.3));
+        auto const many = (*run)(p.run.initial, boxes);
+        for (std::size_t const count : {1U, 2U, 5U}) {
+            auto some = boxes;
+            some.resize(count);
+            auto const few = (*run)(p.run.initial, some);
+            REQUIRE(few.size() == count);
+            for (std::size_t k = 0; k < count; ++k) {
+                CAPTURE(p.name, count, k);
+                check_containment(d, p, *few[k], 3);
+                auto const a = output_ranges(*few[k], boxes[k]);
+                auto const b = output_ranges(*many[k], boxes[k]);
+                REQUIRE(a.size() == b.size());
+                for (std::size_t y = 0; y < a.size(); ++y) {
+                    CHECK(width(a[y]) < 1.02 * width(b[y]) + 1e-9);
+                    CHECK(width(b[y]) < 1.02 * width(a[y]) + 1e-9);
+                }
+            }
+        }
+    }
 }
 
 TEST_CASE("a part of a box: the response of the whole stays valid for it") {

@@ -56,23 +56,29 @@ struct parametric_set {
         : centre(states, Model(s)), tail(states), reach(states) {}
 
     /// Starts the family of one lane.
-    void begin(std::size_t lane, double t, normalised_unknowns const& unknowns) {
-        side_by_side::put(time, lane, t);
-        for (auto& g : columns) {
-            for (auto& entry : g) {
-                for (auto& c : entry.coefficients()) side_by_side::put(c, lane, 0.0);
-                side_by_side::put(entry.r(), lane, 0.0); // infinite where the lane was lost
-                entry.finish();
-            }
-        }
+    /// @param alone  no other lane is in use: all start so, since functions of what stands idle are
+    ///   computed, too, and bounds of nothing cost most
+    void begin(std::size_t lane, double t, normalised_unknowns const& unknowns,
+               bool alone = false) {
         std::vector<C> rest(centre.size());
         tail.resize(centre.size());
-        for (std::size_t i = 0; i < centre.size(); ++i) {
-            enclosure_detail::put(unknowns.initial[i], lane, centre[i]);
-            side_by_side::put(rest[i], lane, side_by_side::get(centre[i].r(), lane));
-            centre[i].r() = 0.0;
-            side_by_side::put(tail[i], lane, 0.0);
+        for (std::size_t l = 0; l < side_by_side::count; ++l) {
+            if (l != lane && !alone) continue;
+            side_by_side::put(time, l, t);
+            for (auto& g : columns) {
+                for (auto& entry : g) {
+                    for (auto& c : entry.coefficients()) side_by_side::put(c, l, 0.0);
+                    side_by_side::put(entry.r(), l, 0.0); // infinite where the lane was lost
+                    entry.finish();
+                }
+            }
+            for (std::size_t i = 0; i < centre.size(); ++i) {
+                enclosure_detail::put(unknowns.initial[i], l, centre[i]);
+                side_by_side::put(rest[i], l, side_by_side::get(centre[i].r(), l));
+                side_by_side::put(tail[i], l, 0.0);
+            }
         }
+        for (auto& p : centre) p.r() = 0.0;
         append(rest);
         measure();
     }

@@ -65,7 +65,7 @@ void parametric_flow<Model>::begin(std::size_t lane, double time, box const& ini
                                                  : std::min<std::size_t>(options_.order, 6);
         flow_order_ = 3;
     }
-    set_.begin(lane, time, unknowns);
+    set_.begin(lane, time, unknowns, alone);
     sharp_ready_ = false;
     sharp_pays_ = true;
     lanes_[lane] = lane_state{};

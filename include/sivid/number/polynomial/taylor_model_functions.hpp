@@ -38,13 +38,16 @@ void multiply_approximately(taylor_model<C>& w, taylor_model<C> const& t, scratc
     std::copy_n(memory.data(), s.terms, w.c());
 }
 
-/// Bounds by the norms where they decide on the sign, else by Bernstein.
+/// Bounds by the norms where they decide on the sign, else by Bernstein; lanes with a centre of 0,
+/// or of which nothing is known, need none.
 template <class C>
 value_bounds<C> bounds_for_sign(taylor_model<C> const& a) {
     using side_by_side = lane_traits<C>;
     auto const rough = rough_bounds(a);
     C const half = side_by_side::abs(a.c(0)) * 0.5;
-    return side_by_side::all((rough.lower > half) | (rough.upper < -half)) ? rough : bounds(a);
+    auto const decided = (rough.lower > half) | (rough.upper < -half);
+    auto const askable = (half > C(0.0)) & (a.norm() < C(taylor_model<C>::largest));
+    return side_by_side::all(decided | !askable) ? rough : bounds(a);
 }
 
 /// The polynomial part of s / s_0 - 1, up to rounding.

@@ -5,6 +5,7 @@
 #include <sivid/number/pack/lanes.hpp>
 #include <sivid/number/polynomial/detail/bernstein.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -185,6 +186,60 @@ TEST_CASE("ranges of many variables side by side") {
                 auto const q = support::short_point(d, 7);
                 REQUIRE(contains_exactly(x, support::member<rational>(d, alone[l], q)));
             }
+        }
+    }
+}
+
+TEST_CASE("ranges of what is nearly a line are hardly wider than it, and contain it") {
+    // 1024 and 4096 Bernstein coefficients, which nobody needs there.
+    check_samples<5, 3>(19, 4);
+    check_samples<6, 3>(20, 4);
+    using pack = taylor_model<lanes<8>>;
+    using side_by_side = pack::side_by_side;
+    using one = sized_model<6, 3>;
+    auto const& t = one::basis::data;
+    draws d(21);
+    for (int trial = 0; trial < 8; ++trial) {
+        pack all(model_shape<lanes<8>>::of(6, 3));
+        std::vector<one> alone;
+        for (std::size_t l = 0; l < 8; ++l) {
+            auto a = random_model<6, 3>(d, 1, 1, l == 5 ? 0.0 : 0.01);
+            double linear = 0, bent = 0;
+            for (std::size_t i = 1; i < a.terms(); ++i)
+                (t.degree[i] == 1 ? linear : bent) += std::abs(a.c()[i]);
+            for (std::size_t i = 0; i < a.terms(); ++i) {
+                if (t.degree[i] > 1) a.c()[i] *= d.uniform(0, 0.05) * linear / bent;
+                if (l == 5) a.c()[i] = 0; // stands idle
+            }
+            a.finish();
+            for (std::size_t i = 0; i < a.terms(); ++i) side_by_side::put(all.c()[i], l, a.c()[i]);
+            // Of the last two nothing is known.
+            bool const lost = l > 5;
+            side_by_side::put(all.r(), l, lost ? HUGE_VAL : a.r());
+            if (lost) side_by_side::put(all.c()[3], l, l == 6 ? HUGE_VAL : NAN);
+            alone.push_back(a);
+        }
+        all.finish();
+        auto const values = bounds(all);
+        for (std::size_t l = 0; l < 8; ++l) {
+            double const low = side_by_side::get(values.lower, l);
+            double const high = side_by_side::get(values.upper, l);
+            CAPTURE(trial, l);
+            if (l > 5) {
+                CHECK_FALSE((std::isfinite(low) || std::isfinite(high)));
+                continue;
+            }
+            double lowest = HUGE_VAL, highest = -HUGE_VAL;
+            for (std::size_t corner = 0; corner < 64 + 40; ++corner) {
+                auto q = support::short_point(d, 6);
+                for (std::size_t v = 0; v < 6 && corner < 64; ++v)
+                    q[v] = ((corner >> v) & 1U) != 0 ? 1 : -1;
+                REQUIRE(contains_exactly(interval(low, high),
+                                         support::member<rational>(d, alone[l], q)));
+                lowest = std::min(lowest, support::value<double>(alone[l], q));
+                highest = std::max(highest, support::value<double>(alone[l], q));
+            }
+            CHECK(high - low <= 1.15 * (highest - lowest) + 2.001 * alone[l].r() + 1e-12);
         }
     }
 }

@@ -22,6 +22,8 @@ TEST_CASE("what stretches add up to within a time") {
     CHECK(least_change(all, 2) == 5);
     CHECK(least_change(all, 0.5) == 0);
     CHECK(most_change({}, 1) == 0);
+    // Beyond them nothing is known.
+    CHECK(most_change(all, 5, 6) == HUGE_VAL);
 }
 
 TEST_CASE("what happens at any moment counts in full and what is not bounded by its range") {

@@ -55,6 +55,21 @@ TEST_CASE("coefficients have certified ranges and start at the end closest to ze
     CHECK_FALSE(b.row(b.x[0] / b.p[0], box{between(0, 1), between(0, 1), between(0, 1)}).bounded);
 }
 
+TEST_CASE(
+    "what does not separate is taken about its middle, unless its factor has the same constant") {
+    bench b;
+    box const prior{between(1, 2), between(3, 5), between(0, 1)};
+    auto const apart = b.row(b.p[1] * tanh(b.p[0] * b.x[0]), prior);
+    REQUIRE(apart.theta.size() == 2); // p1, and the distance of p0 from its middle
+    CHECK(std::any_of(apart.range.begin(), apart.range.end(),
+                      [](interval const& r) { return equal(r, between(-0.5, 0.5)); }));
+    CHECK(apart.inseparable == std::set<std::size_t>{0, 1}); // where the slope is taken
+    auto const same = b.row(b.p[0] * tanh(b.p[0] * b.x[0]), prior);
+    REQUIRE(same.theta.size() == 1);
+    CHECK(equal(same.range[0], between(1, 2)));
+    CHECK(same.inseparable == std::set<std::size_t>{0});
+}
+
 TEST_CASE("quotients in which factors cancel tie coefficients together") {
     bench b;
     // 1/p1 in [0.5, 1] and p0/p1 in [1, 4], but p0 = their quotient in [2, 4] only.

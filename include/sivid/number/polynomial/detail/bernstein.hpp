@@ -49,6 +49,8 @@ namespace number_detail {
 
 /// Most Bernstein coefficients that are worth their time.
 inline constexpr std::size_t most_tensor = 4096;
+/// So few that all of them are looked at in any case.
+inline constexpr std::size_t small_tensor = 256;
 /// Terms beyond the linear ones are so small a share of what a polynomial of many variables spans
 /// that nothing closer is looked for.
 inline constexpr double nearly_line = 1.0 / 16;
@@ -249,11 +251,12 @@ template <class C>
     // are their errors, times (side + 2) units. Summed along the other lines that is the norm,
     // in each stage; the last two operations below add less than four units of it.
     double excess = (static_cast<double>(n * (2 * side + 8)) + 8) * model::unit;
-    if (count > number_detail::most_tensor) {
-        // Of what is nearly a line the rough bounds are close, and cost nothing.
+    if (count > number_detail::small_tensor) {
+        // Of what is nearly a line the rough bounds are close, and cost nothing. Lanes of which
+        // nothing is known, and those that stand idle, ask for nothing.
         auto const bent = a.spread() - a.norms()[1];
-        if (side_by_side::all(bent < (a.spread() + a.r()) * number_detail::nearly_line))
-            return rough;
+        auto const line = bent <= (a.spread() + a.r()) * number_detail::nearly_line;
+        if (side_by_side::all(line | !(a.polynomial_norm() < C(model::largest)))) return rough;
         using largest = number_detail::largest_value<C>;
         hi = largest(a, false)();
         lo = -largest(a, true)();

@@ -37,7 +37,8 @@ struct rate_stretch {
         fall = detail::add_up(fall, detail::add_up(detail::mul_up(share, s->fall), s->down));
         range = traits::hull(range, s->range);
     }
-    return is_empty(range) ? 0 : std::min(std::max(rise, fall), width(range));
+    if (is_empty(range)) return detail::infinity; // nothing is known of that time
+    return std::min(std::max(rise, fall), width(range));
 }
 /// The same within any time of one length.
 [[nodiscard]] inline double most_change(std::vector<rate_stretch> const& all, double period) {

@@ -90,7 +90,7 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
 /// prior, and what they may move it by are further terms, by the mean value theorem:
 ///   \f[ \theta_j \phi_j(x, c) = \theta_j \phi_j(x, \bar c) + \sum_k (c_k - \bar c_k)\,
 ///   \theta_j\, \partial\phi_j/\partial c_k(x, \xi) \f]
-/// Nothing is changed where no such derivative need exist.
+/// Nothing is changed where no such derivative need exist, or a constant stands in both.
 [[nodiscard]] inline separated_expression separate_about(graph& g, node_id rate, box const& prior) {
     auto result = separate(g, rate);
     if (result.complete) return result;
@@ -108,6 +108,14 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
         leaves.push_back(i);
         middles.push_back(g.constant(mid(range)));
     }
+    // The slopes are taken at another place than the coefficients: in one expression a constant of
+    // both would be one leaf, of which a quotient could be taken for a direction.
+    std::vector<node_id> coefficients;
+    for (auto const& t : result.terms)
+        for (auto const& factor : t.theta) coefficients.push_back(factor.first);
+    auto const outside = operands_of(g, coefficients);
+    if (std::any_of(leaves.begin(), leaves.end(), [&](node_id i) { return outside[i]; }))
+        return result;
     auto const slopes = differentiate(g, functions, leaves);
     auto const same = graph(g);
     auto const about = copy_into(g, same, functions, [&](node const& n, graph& to) {

@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -132,14 +133,21 @@ private:
         tables_;
 };
 
-/// One experiment over boxes of parameters.
+/// One experiment over boxes of parameters. A box alone goes in scalars: lanes that stand idle cost
+/// as much as those that run.
 template <class C, class Flow = parametric_flow<taylor_model<C>>>
 class taylor_run final : public experiment_run {
 public:
     /// @param unknowns, degree  of the polynomials
     taylor_run(flow const& f, experiment const& e, record const& samples,
                run_options const& options, std::size_t unknowns, std::size_t degree)
-        : experiment_(&e), samples_(&samples), lanes_(f, options, unknowns, degree) {}
+        : experiment_(&e),
+          samples_(&samples),
+          flow_(&f),
+          options_(options),
+          unknowns_(unknowns),
+          degree_(degree),
+          lanes_(f, options, unknowns, degree) {}
 
     using experiment_run::operator();
     [[nodiscard]] std::size_t at_once() const override { return lanes_.width; }
@@ -150,13 +158,23 @@ public:
         for (auto const& p : parameters) {
             families.push_back({experiment_, samples_, &initial, &p});
         }
+        if constexpr (std::is_same_v<Flow, parametric_flow<taylor_model<lanes<8>>>>) {
+            if (families.size() == 1) {
+                if (!single_) single_.emplace(*flow_, options_, unknowns_, degree_);
+                return (*single_)(families);
+            }
+        }
         return lanes_(families);
     }
 
 private:
     experiment const* experiment_;
     record const* samples_;
+    flow const* flow_;
+    run_options options_;
+    std::size_t unknowns_, degree_;
     taylor_lanes<C, Flow> lanes_;
+    std::optional<taylor_lanes<double>> single_; ///< made when it is first asked for
 };
 
 } // namespace paving_detail
