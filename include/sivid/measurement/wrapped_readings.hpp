@@ -7,7 +7,9 @@
 #include <sivid/measurement/signal.hpp>
 
 #include <cstddef>
+#include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sivid {
@@ -23,9 +25,15 @@ namespace sivid {
 /// @param begin  no later than the samples
 /// @param start  what y is at the begin, about, where that is known: n begins at the turns that the
 ///               first reading lacks
+/// @param turn   T, about; 0: twice `least`
 [[nodiscard]] SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel,
                                                  double least, double begin,
-                                                 std::optional<double> start = {});
+                                                 std::optional<double> start = {}, double turn = 0);
+
+/// A full turn in this unit; 0: it is none of angles.
+[[nodiscard]] inline double full_turn(std::string const& unit) {
+    return unit == "rad" ? 2 * std::numbers::pi : unit == "deg" ? 360 : 0;
+}
 
 /// By how much the readings of a channel leap where they wrap: the median of their leaps, in all
 /// records. Leaps are steps of about one size, of which all other steps are at most a third.

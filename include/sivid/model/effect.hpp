@@ -23,6 +23,12 @@ namespace sivid {
 
 class effect_scope;
 
+/// Whether an input counts how often readings have leapt back (`effect::wraps`): it belongs to the
+/// times of the readings, late or not.
+[[nodiscard]] inline bool counts_readings(std::string const& input) {
+    return input.ends_with(".wraps");
+}
+
 namespace detail {
 inline constexpr std::string_view wider = "_wider";
 }
@@ -102,6 +108,12 @@ struct effect {
     }
     /// Whether it begins or ends in the midst of an experiment.
     [[nodiscard]] bool changes_within() const { return begins_later() || ends(); }
+    /// Whether it may change something where its parameters are neutral: a saturation does beyond
+    /// its highest limit.
+    [[nodiscard]] bool may_leave_traces() const {
+        return std::any_of(parameters.begin(), parameters.end(),
+                           [](effect_parameter const& p) { return nearest(p.neutral) != 0; });
+    }
     static constexpr double for_ever = std::numeric_limits<double>::infinity();
     static constexpr double from_start = -for_ever;
 };

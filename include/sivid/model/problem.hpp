@@ -56,6 +56,18 @@ struct identification_problem {
     box prior;
     std::vector<experiment> experiments;
 
+    /// For what knows experiments by their names: a diagnosis, windows of equations.
+    /// @throws std::invalid_argument as `require_valid`, and where two experiments have one name
+    void require_valid_campaign() const {
+        require_valid();
+        for (std::size_t s = 0; s < experiments.size(); ++s)
+            for (std::size_t k = 0; k < s; ++k)
+                if (experiments[k].name == experiments[s].name)
+                    throw std::invalid_argument("identification problem: two experiments are "
+                                                "called '" +
+                                                experiments[s].name +
+                                                "'; give each a name of its own");
+    }
     /// @throws std::invalid_argument that names what does not fit
     void require_valid() const {
         auto const fail = [](std::string const& what) {

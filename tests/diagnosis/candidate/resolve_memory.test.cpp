@@ -36,6 +36,13 @@ TEST_CASE("a delayed signal shows the past") {
     CHECK(held.approximate(1.25) == 1);
     CHECK(held.approximate(2.0) == 1.5);
     CHECK(std::get<sampled_signal>(delayed(linear, {0}, 0)).times().size() == 3);
+    // One that was recorded before the begin alone goes on along its last line.
+    sampled_signal const before({-2.0, -1.0}, {0.0, 1.0}, interpolation::linear);
+    auto const on = std::get<sampled_signal>(delayed(before, {0.5}, 0));
+    for (double t = 0; t < 9; t += 0.125) {
+        double const past = before.approximate(std::max(t - 0.5, 0.0));
+        CHECK_THAT(on.approximate(t), WithinAbs(past, 1e-12));
+    }
 }
 
 TEST_CASE("resolving a play puts the recorded input behind it, late or not") {
@@ -107,6 +114,21 @@ TEST_CASE("resolving delays moves signals and measurements and drops the unknown
     r.problem.require_valid();
     flow const f(r.problem.model, r.problem.choice, e.inputs); // binds
     CHECK_THROWS_AS(resolve_memory(p, {1.25, -0.25, 0.15}), std::invalid_argument);
+}
+
+TEST_CASE(
+    "counts of readings move with late readings; with some that are late, any count is possible") {
+    sampled_signal const counts({0.0, 1.0, 2.0}, {0.0, 1.0, -1.0}, interpolation::hold);
+    auto const moved = counts_of_late(counts, dead_time{0.5}, 0);
+    CHECK(moved.approximate(0.25) == 0);
+    CHECK(moved.approximate(0.75) == 1);
+    CHECK(moved.approximate(1.75) == -1);
+    CHECK(moved.exact());
+    for (auto const& any : {counts_of_late(counts, std::nullopt, 0),
+                            counts_of_late(counts, dead_time{1.5}, 0)}) { // two before the begin
+        CHECK(any.values() == std::vector<double>{0});
+        CHECK(any.errors() == std::vector<double>{1});
+    }
 }
 
 TEST_CASE("a late signal keeps the error bounds of its samples") {

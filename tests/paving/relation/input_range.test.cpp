@@ -47,6 +47,12 @@ TEST_CASE("the moves of an input over a stretch") {
     CHECK(equal(input_around(hold, 1, 1.5, true), between(4, 4)));
     signal const vague = sampled_signal({0.0, 1.0}, {1.0, 1.0}, interpolation::linear, {0.5, 0.5});
     CHECK(contains(input_move(vague, 0, 1, false), -1));
+    // After its jump, too.
+    signal const late = sampled_signal({0.0, 1.0}, {0.0, 3.0}, interpolation::hold, {0.5, 0.5});
+    CHECK(contains(input_move(late, 1, 2, false), -1));
+    CHECK(contains(input_move(late, 1, 2, false), 4));
+    signal const steep = sampled_signal({0.0, 1.0}, {0.0, 3.0}, interpolation::linear, {0.1, 0.1});
+    CHECK(contains(input_move(steep, 0, 1, false), -0.2));
     signal const formula = analytic_signal::from([](auto const& t) { return sin(t); });
     CHECK(contains(input_move(formula, 1, 2.5, false), -0.2)); // it rises and falls
     CHECK(contains(input_move(formula, 1, 2.5, false), 0.15));

@@ -6,11 +6,13 @@
 #include <sivid/measurement/limited_signal.hpp>
 #include <sivid/measurement/played_signal.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -53,7 +55,15 @@ namespace sivid {
         add(late.seen(sampled.times()[k], begin), sampled.values()[k],
             sampled.exact() ? 0 : sampled.errors()[k]);
     }
-    if (sampled.exact()) errors.clear();
+    // The last line goes on to the right.
+    auto const last = sampled.times().size() - 1;
+    if (!holds && last > 0 && !(sampled.times()[last] > begin) && late.drift < 1) {
+        double const far = begin + std::max(1.0, std::abs(begin));
+        auto const value = sampled.value<interval>(sampled.piece(far), interval(far));
+        add(late.seen(far, begin), mid(value), rad(value) + sampled.error_bound(last, far));
+    } else if (sampled.exact()) {
+        errors.clear();
+    }
     return sampled_signal(std::move(times), std::move(values), sampled.kind(), std::move(errors));
 }
 
@@ -84,6 +94,23 @@ struct memory_resolved {
     return false;
 }
 
+/// What counts the readings of a channel, at the times of which they tell. Where some are later
+/// than others, or of before the begin, counts change places with them: any of them is possible
+/// then.
+/// @param late  nothing: not all alike
+[[nodiscard]] inline sampled_signal
+counts_of_late(sampled_signal const& counts, std::optional<dead_time> const& late, double begin) {
+    std::vector<double> times;
+    bool apart = late.has_value();
+    for (std::size_t k = 0; apart && k < counts.times().size(); ++k) {
+        times.push_back(late->source(counts.times()[k], begin));
+        apart = k == 0 || times[k] > times[k - 1];
+    }
+    if (apart) return {std::move(times), counts.values(), interpolation::hold};
+    auto const [least, most] = std::minmax_element(counts.values().begin(), counts.values().end());
+    return {{begin}, {0.5 * (*least + *most)}, interpolation::hold, {0.5 * (*most - *least)}};
+}
+
 /// Fixes delays, plays and rate limits at the values in `parameters`, moves inputs and measurements
 /// accordingly, and puts inputs behind their limits, then behind their plays, with errors that
 /// cover the roundings.
@@ -112,7 +139,8 @@ struct memory_resolved {
         (d.kind == memory_kind::drift ? late.drift : late.delay) += value_of(d);
     };
     std::vector<bool> is_size(model.about.constants.size(), false);
-    for (auto& e : problem.experiments) {
+    for (std::size_t x = 0; x < problem.experiments.size(); ++x) {
+        auto& e = problem.experiments[x];
         for (auto const kind : {memory_kind::rate_limit, memory_kind::play}) {
             for (auto const& d : model.input_memory) {
                 if (d.kind != kind || !acts_in(d, e.inputs)) continue;
@@ -125,11 +153,31 @@ struct memory_resolved {
             if (is_dead_time(d.kind) && acts_in(d, e.inputs)) add_to(late[d.index], d);
         for (std::size_t i = 0; i < late.size(); ++i)
             e.inputs[i] = delayed(e.inputs[i], late[i], e.begin);
-        for (auto& m : e.measurements) {
+        auto const lateness = [&](std::size_t channel, double time) {
             dead_time shown;
             for (auto const& d : model.channel_delays)
-                if (d.index == m.channel && acts_at(d, e.inputs, m.time)) add_to(shown, d);
-            m.time = shown.source(m.time, e.begin);
+                if (d.index == channel && acts_at(d, e.inputs, time)) add_to(shown, d);
+            return shown;
+        };
+        // What counts readings of a late channel moves with them.
+        for (auto const& d : model.channel_delays) {
+            std::optional<dead_time> common = lateness(d.index, e.begin);
+            for (auto const& m : e.measurements)
+                if (common && m.channel == d.index && !(lateness(m.channel, m.time) == *common))
+                    common.reset();
+            auto const read = operands_of(model.g, {model.observe[d.index]});
+            for (std::size_t k = 0; k < read.size(); ++k) {
+                auto const& n = model.g.nodes()[k];
+                if (!read[k] || n.op != operation::input) continue;
+                auto const i = static_cast<std::size_t>(n.index);
+                if (!counts_readings(model.about.inputs[i].name)) continue;
+                auto const& own = original.experiments[x].inputs[i];
+                if (auto const* u = std::get_if<sampled_signal>(&own))
+                    e.inputs[i] = counts_of_late(*u, common, e.begin);
+            }
+        }
+        for (auto& m : e.measurements) {
+            m.time = lateness(m.channel, m.time).source(m.time, e.begin);
         }
         e.measurements = sorted(std::move(e.measurements));
     }

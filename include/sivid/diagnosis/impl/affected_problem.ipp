@@ -33,10 +33,12 @@ inline signal wraps_in(experiment const& x, recorded_model const& model,
                        effect::wrapped_channel const& w) {
     auto const y = index_of(model.about.channels, w.channel, "channel");
     auto const& shown = model.g[model.observe[y]];
+    double const turn = full_turn(model.about.channels[y].unit);
     std::optional<double> start; // of a state that the channel shows as it is
     auto const i = static_cast<std::size_t>(shown.index);
-    if (shown.op == operation::state && i < x.initial.size()) start = mid(x.initial[i]);
-    auto count = wraps_of(x.measurements, y, w.least, x.begin, start);
+    bool const own = shown.op == operation::state && i < x.initial.size();
+    if (own && width(x.initial[i]) < (turn > 0 ? turn : 2 * w.least)) start = mid(x.initial[i]);
+    auto count = wraps_of(x.measurements, y, w.least, x.begin, start, turn);
     if (count.values().size() > 1) return count;
     return analytic_signal::from([n = count.values()[0]](auto const&) { return n; });
 }

@@ -46,7 +46,7 @@ public:
           effort_(options_.seconds, options_.test, options_.progress) {
         run_.base = std::move(base);
         run_.catalogue = std::move(catalogue);
-        run_.base.require_valid();
+        run_.base.require_valid_campaign();
         options_.screening.progress = [this](std::string const& what) {
             return effort_.left() > kept_ && effort_.go_on("trying " + what);
         };

@@ -35,11 +35,12 @@ SIVID_DECL std::vector<double> steps_of(record const& samples, std::size_t chann
 }
 
 SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel, double least,
-                                   double begin, std::optional<double> start) {
+                                   double begin, std::optional<double> start, double turn) {
+    if (!(turn > 0)) turn = 2 * least;
     auto const own = measurement_detail::readings_of(samples, channel);
     auto const steps = measurement_detail::steps_between(own);
     bool const known = start && !own.empty() && std::isfinite(*start);
-    double const first = known ? std::round((*start - mid(own[0].bound)) / (2 * least)) : 0;
+    double const first = known ? std::round((*start - mid(own[0].bound)) / turn) : 0;
     std::vector<double> times{begin}, counts{first};
     for (std::size_t k = 0; k < steps.size(); ++k) {
         if (!(std::abs(steps[k]) >= least)) continue;

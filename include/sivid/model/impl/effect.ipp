@@ -72,14 +72,12 @@ SIVID_DECL bool finds_as_recorded(recorded_model const& base, std::vector<effect
     auto const first = changed.rate.size() - base.about.inputs.size() - base.about.constants.size();
     if (!is_it(changed.rate[first + k])) return false;
     std::vector<node_id> others; // added states of effects, too
-    for (auto i = base.rate.size(); i < changed.rate.size(); ++i) {
+    for (auto i = base.rate.size(); i < changed.rate.size(); ++i)
         if (i != first + k) others.push_back(changed.rate[i]);
-    }
     for (auto const& added : changed.added_states) others.push_back(added.at_begin);
     auto const read = operands_of(g, others);
-    for (std::size_t i = 0; i < read.size(); ++i) {
+    for (std::size_t i = 0; i < read.size(); ++i)
         if (read[i] && is_it(static_cast<node_id>(i))) return false;
-    }
     return std::none_of(changed.input_memory.begin(), changed.input_memory.end(),
                         [k](auto const& m) { return m.index == k; });
 }
@@ -265,11 +263,9 @@ SIVID_DECL void effect_scope::lag_channel(std::string const& name, std::size_t k
 SIVID_DECL expression effect_scope::add_state(std::string const& name, std::string const& unit,
                                               double limit, expression const& at_begin) {
     auto const k = model_->about.states.size();
-    for (auto const& s : model_->about.states) {
-        if (s.name == name) {
+    for (auto const& s : model_->about.states)
+        if (s.name == name)
             throw std::invalid_argument("effect: the model has a state '" + name + "'");
-        }
-    }
     model_->about.states.push_back({name, unit, limit, {}});
     model_->added_states.push_back({k, at_begin.in(model_->g)});
     states_.emplace_back(model_->g, model_->g.leaf(operation::state, k));
@@ -313,11 +309,9 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
         first.push_back(constants.size());
         for (auto const& p : e.parameters) {
             auto const name = e.name + "." + p.name;
-            for (auto const& c : constants) {
-                if (c.name == name) {
+            for (auto const& c : constants)
+                if (c.name == name)
                     throw std::invalid_argument("effect '" + e.name + "' stands twice");
-                }
-            }
             constants.push_back({name, p.unit, literal{enclose(p.neutral), nearest(p.neutral)}});
         }
         if (!e.only_in.empty()) result.about.inputs.push_back({e.name, "1"});
@@ -346,13 +340,22 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
             auto const before = scope;
             (effects[k].*stage)(scope);
             auto const on = scope.switch_of_effect();
-            if (on && unseen[k]) scope.keep_where(before.inputs_[*on], before);
+            if (on && (unseen[k] || effects[k].may_leave_traces()))
+                scope.keep_where(before.inputs_[*on], before);
             bool const remembers = scope.states_.size() > before.states_.size() ||
                                    scope.inputs_.size() > before.inputs_.size();
             if (on && remembers) unseen[k] = true;
         }
     };
     apply_all(&effect::on_inputs);
+    auto memory = base.input_memory;
+    memory.insert(memory.end(), base.channel_delays.begin(), base.channel_delays.end());
+    for (auto const& m : memory) {
+        auto const own = result.g.leaf(operation::constant, m.constant);
+        if (scope.constants_[m.constant].in(result.g) == own) continue;
+        throw std::invalid_argument("effect: '" + constants[m.constant].name +
+                                    "' is a delay or a play: it must stay as it is");
+    }
 
     // The model itself, on the time, the inputs and the constants that the effects left.
     auto& g = result.g;
@@ -373,10 +376,9 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     auto const itself = [](node const& n, graph& to) {
         return to.leaf(n.op, static_cast<std::size_t>(n.index));
     };
-    for (auto const& d : base.derived) {
+    for (auto const& d : base.derived)
         result.derived.push_back(
             {d.constant, copy_into(g, base.g, {d.value}, itself).front(), d.always});
-    }
     auto const copied = result.rate;
     apply_all(&effect::on_rates);
     apply_all(&effect::on_channels);
@@ -385,13 +387,11 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     for (auto const& e : scope.rates_) result.rate.push_back(e.in(g));
     if (result.rate != copied) result.stated.reset();
     for (auto const& e : scope.channels_) result.observe.push_back(e.in(g));
-    for (auto const& a : result.added_states) {
-        if ((g.depends(a.at_begin) & (on_state | on_time)) != 0) {
+    for (auto const& a : result.added_states)
+        if ((g.depends(a.at_begin) & (on_state | on_time)) != 0)
             throw std::invalid_argument("effect: the initial value of state '" +
                                         result.about.states[a.state].name +
                                         "' may depend on inputs and constants only");
-        }
-    }
     return result;
 }
 

@@ -62,6 +62,8 @@ namespace sivid {
                            traits::point(sampled->values()[piece - 1]));
         e = std::max(e, sampled->error_bound(piece - 1, from));
     }
+    // Between two later times it may stand still, and move by its errors alone.
+    if (e > 0) move = traits::hull(move, traits::point(0.0));
     return traits::add(move, traits::mul(traits::point(2.0), traits::bounds(-e, e)));
 }
 

@@ -73,3 +73,45 @@ TEST_CASE("a suspect's problem is about what its sensor shows") {
     CHECK(exact.problem.experiments[0].measurements.size() == before.measurements.size());
     CHECK(equal(exact.problem.experiments[0].initial[1], before.initial[1]));
 }
+
+TEST_CASE("half a slice of delays may span many samples of a dense record") {
+    // y' = u - 30 y, shown 0.0999 s late, 50 kHz: within half a slice the speed turns.
+    draws d(41);
+    auto const m = support::model_of({1, 2, 1, 200},
+                                     [](auto const&, auto const& x, auto const& p, auto const& u) {
+                                         using T = std::decay_t<decltype(x[0])>;
+                                         return std::vector<T>{p[0] * u[0] - p[1] * x[0]};
+                                     });
+    double const duration = 0.15, period = 0.00002, late = 0.0999, pace = 1000;
+    std::vector<double> t, v;
+    for (int k = 0; k * 0.00001 <= duration + 1e-9; ++k) {
+        t.push_back(k * 0.00001);
+        v.push_back(2000 * std::sin(pace * t.back()));
+    }
+    std::vector<sampled_signal> const inputs{{t, v, interpolation::linear}};
+    auto const truth = simulate(m, {1, 30}, inputs, {0.5}, duration, 0.00001);
+    identification_problem problem{
+        m, {support::all_constants(2), {}}, box{between(0.99, 1.01), between(29, 31)}, {}};
+    experiment e;
+    e.name = "S";
+    e.inputs = {inputs[0]};
+    e.initial = point_box(truth.states.front());
+    for (int k = 1; k * period <= duration + 1e-9; ++k) {
+        double const y = truth.at(std::max(0.0, k * period - late))[0];
+        e.measurements.push_back({k * period, 0, around(y + d.uniform(-0.9, 0.9) * 1e-6, 1e-6)});
+    }
+    problem.experiments.push_back(std::move(e));
+    // What the rate varies by within a time: 2000 times what sin(pace t) does, and a little.
+    std::map<std::string, std::vector<rate_variation>> const laws{{"S", {{0.0001, 240}}}};
+    sensor_fault_ranges ranges;
+    ranges.scale = ranges.offset = 0.001;
+    ranges.mixing = 0;
+    ranges.latency = 0.2;
+    auto const s = suspect_of(problem, faults_of(problem, {0}, 0, ranges), laws, 0.0975, 0.0025);
+    auto const& moved = s.problem.experiments[0].measurements;
+    REQUIRE(moved.size() > 2000);
+    for (auto const& one : moved) {
+        INFO(one.time);
+        REQUIRE(contains(one.bound, truth.at(one.time)[0]));
+    }
+}

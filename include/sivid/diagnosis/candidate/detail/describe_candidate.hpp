@@ -111,7 +111,9 @@ inline void add_constants_at_ends(std::vector<std::string> const& effects,
     for (auto const e : s.figures.effects) {
         if (auto const& w = catalogue[e].wraps)
             c.assumptions.push_back(w->channel + " has wrapped as often as its readings leap by " +
-                                    nearest_text(w->least) + " or more");
+                                    nearest_text(w->least) +
+                                    " or more, and is first read within half a turn of where it "
+                                    "starts, or, where that is not known so well, as it is");
     }
     return c;
 }

@@ -115,6 +115,7 @@ private:
                 x.inputs[m.index] = remembered_within(x, m, range);
         part.model.input_memory.clear();
         auto const at = static_cast<std::ptrdiff_t>(j);
+        part.choice.fixed[part.choice.unknown[j]] = range; // equations may read it, too
         part.choice.unknown.erase(part.choice.unknown.begin() + at);
         std::vector<interval> sides(part.prior.begin(), part.prior.end());
         sides.erase(sides.begin() + at);

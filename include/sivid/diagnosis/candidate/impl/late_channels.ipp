@@ -115,6 +115,7 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
             return std::holds_alternative<sampled_signal>(x.inputs[i]);
         };
         if (std::none_of(base.experiments.begin(), base.experiments.end(), is)) continue;
+        if (counts_readings(base.model.about.inputs[i].name)) continue; // at their own times
         recorded.push_back(i);
         inputs.push_back(base.model.about.inputs[i].name);
     }

@@ -9,6 +9,7 @@
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/diagnosis/candidate/detail/late_channels.hpp>
 #include <sivid/diagnosis/candidate/resolve_memory.hpp>
+#include <sivid/paving/relation/detail/untouched_relation.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -115,6 +116,8 @@ struct input_change {
     std::vector<interval> sides(all.begin(), all.end());
     sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(j));
     problem.prior = box(std::move(sides));
+    // Equations may read it, too: there it is any value.
+    problem.choice.fixed[problem.model.about.constants[memory.constant].name] = all[j];
     start_added_states(problem);
     return problem;
 }
@@ -134,6 +137,10 @@ public:
             auto const change = change_by(m);
             if (change) {
                 changes_.push_back(*change);
+                // Two inputs by one parameter: both have errors.
+                for (auto& c : changes_)
+                    if (c.effect == change->effect && &c != &changes_.back())
+                        c.side.is_parameter = changes_.back().side.is_parameter = false;
             } else {
                 bool const alone = memory.size() == 1 && whole_.model.channel_delays.empty();
                 return alone ? by_errors(m) : std::nullopt;
@@ -154,13 +161,39 @@ private:
     [[nodiscard]] std::size_t side_of(effect const& e) const {
         return index_of_parameter(whole_, full_name(e));
     }
+    /// Whether an effect does nothing but remember: without its edits the equations, the channels
+    /// and the starts are the same, and none reads its parameter.
+    [[nodiscard]] bool only_remembers(std::size_t k, std::size_t constant) const {
+        auto idle = *effects_;
+        idle[k].on_inputs = idle[k].on_rates = idle[k].on_channels = nullptr;
+        auto const without = with(base_->model, idle);
+        auto const& own = whole_.model;
+        if (without.rate.size() != own.rate.size()) return false;
+        paving_detail::same_expressions same(own.g, without.g);
+        auto read = own.rate;
+        read.insert(read.end(), own.observe.begin(), own.observe.end());
+        auto other = without.rate;
+        other.insert(other.end(), without.observe.begin(), without.observe.end());
+        for (auto const& a : own.added_states) read.push_back(a.at_begin);
+        for (auto const& a : without.added_states) other.push_back(a.at_begin);
+        for (std::size_t i = 0; i < read.size(); ++i)
+            if (!same(read[i], other[i])) return false;
+        auto const used = operands_of(own.g, read);
+        for (std::size_t i = 0; i < used.size(); ++i) {
+            auto const& n = own.g.nodes()[i];
+            if (used[i] && n.op == operation::constant &&
+                static_cast<std::size_t>(n.index) == constant)
+                return false;
+        }
+        return true;
+    }
     /// The effect that is nothing but this memory, with one parameter.
     [[nodiscard]] std::optional<input_change> change_by(signal_memory const& m) const {
         auto const& name = whole_.model.about.constants[m.constant].name;
         if (!is_recorded(whole_, m.index)) return std::nullopt;
         for (std::size_t k = 0; k < effects_->size(); ++k) {
             auto const& e = (*effects_)[k];
-            if (e.parameters.size() != 1 || full_name(e) != name || e.on_rates || e.on_channels)
+            if (e.parameters.size() != 1 || full_name(e) != name || !only_remembers(k, m.constant))
                 continue;
             auto const linear = [&](experiment const& x) {
                 return std::get<sampled_signal>(x.inputs[m.index]).kind() == interpolation::linear;
@@ -208,6 +241,7 @@ private:
             auto const& e = (*effects_)[k];
             bool const only = e.parameters.size() == 1 && !e.on_rates && !e.on_inputs;
             if (!only || full_name(e) != model.about.constants[constant].name) continue;
+            if (!only_remembers(k, constant)) return false;
             auto const j = side_of(e);
             if (j == whole_.prior.size() || !(whole_.prior[j].lower() >= 0)) return false;
             late_ = k;
@@ -233,7 +267,11 @@ private:
                                            [&](input_change const& c) { return c.effect == k; }))
                 others.push_back((*effects_)[k]);
         }
-        for (auto const& c : changes_) result.sides.push_back(c.side);
+        for (auto const& c : changes_) {
+            bool const known = std::any_of(result.sides.begin(), result.sides.end(),
+                                           [&c](auto const& s) { return s.index == c.side.index; });
+            if (!known) result.sides.push_back(c.side);
+        }
         if (late_) result.sides.push_back({late_side_, true});
         auto const names = whole_.choice.unknown;
         result.over = [names, others, base = base_, effects = effects_, changes = changes_,

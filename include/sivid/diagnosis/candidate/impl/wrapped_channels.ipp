@@ -13,7 +13,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,11 +21,6 @@
 namespace sivid {
 
 namespace diagnosis_detail {
-
-/// A full turn in this unit; 0: it is none of angles.
-inline double full_turn(std::string const& unit) {
-    return unit == "rad" ? 2 * std::numbers::pi : unit == "deg" ? 360 : 0;
-}
 
 /// Two digits, no less than x > 0.
 inline std::string two_digits_above(double x) {
@@ -48,7 +42,7 @@ SIVID_DECL std::vector<effect> with_wrapped_channels(identification_problem cons
     auto const& about = problem.model.about;
     for (std::size_t y = 0; y < about.channels.size(); ++y) {
         auto const& channel = about.channels[y];
-        double const range = wrapping_range(records, y, diagnosis_detail::full_turn(channel.unit));
+        double const range = wrapping_range(records, y, full_turn(channel.unit));
         bool const known = std::any_of(catalogue.begin(), catalogue.end(), [&](effect const& e) {
             return e.wraps && e.wraps->channel == channel.name;
         });

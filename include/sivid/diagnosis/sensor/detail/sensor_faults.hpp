@@ -174,12 +174,17 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
             double rate = 0;
             for (std::size_t k = 0; k + 1 < samples.times.size(); ++k) {
                 double const gap = samples.times[k + 1] - samples.times[k];
-                if (samples.times[k + 1] < t - 1.5 * gap || samples.times[k] > t + 1.5 * gap) {
+                double const near = std::max(1.5 * gap, half);
+                if (samples.times[k + 1] < t - near || samples.times[k] > t + near) {
                     continue;
                 }
                 rate = std::max(rate, mag((samples.bounds[k + 1] - samples.bounds[k]) / gap));
             }
-            return rate + 2 * law.variation;
+            // Beyond the first and the last sample nothing is seen.
+            bool const seen = samples.times.size() > 1 && samples.times.front() <= t - half &&
+                              t + half <= samples.times.back();
+            double const periods = seen ? 2 : std::max(2.0, std::ceil(half / law.period) + 1);
+            return rate + periods * law.variation;
         };
         record kept;
         for (auto m : e.measurements) {
@@ -187,7 +192,7 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
                 double const more = half > 0 ? half * steepest(m.time) * (1 + 1e-9) : 0;
                 m.bound = traits::add(m.bound, traits::bounds(-more, more));
                 m.time -= delay;
-                if (m.time < e.begin) continue;
+                if (m.time < e.begin + half) continue; // of before the begin
             }
             kept.push_back(m);
         }

@@ -27,12 +27,14 @@ namespace sivid {
 class relation_examiner {
 public:
     /// @param problem  outlives this object
-    /// @throws std::invalid_argument if the problem is not valid
+    /// @throws std::invalid_argument if the problem is not valid, or experiments share a name
     /// @param suspect  a sensor that may be faulty, see `sensor_discharge.hpp`
     explicit relation_examiner(identification_problem const& problem,
                                relation_options const& options = {},
                                suspected_sensor const* suspect = nullptr)
-        : windows_(problem, options, suspect), options_(options) {}
+        : windows_(problem, options, suspect), options_(options) {
+        problem.require_valid_campaign();
+    }
 
     [[nodiscard]] relation_windows& windows() { return windows_; }
     [[nodiscard]] std::size_t equations() const { return windows_.about().states.size(); }

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Legal problems that are built otherwise than most: one parameter in several places, an effect
+// that does two things, readings that begin late, a saturation that acts here and there. The truth
+// is planted, and has to stay.
+#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/verification.hpp>
+
+#include "diagnosis/late_position.hpp"
+#include "diagnosis/planted_motion.hpp"
+#include "diagnosis/small_campaign.hpp"
+#include "support/catch.hpp"
+
+#include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
+#include <sivid/diagnosis/candidate/detail/episode_hulls.hpp>
+#include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
+#include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
+#include <sivid/model/effects.hpp>
+#include <sivid/paving/inflation.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+using namespace sivid;
+using namespace sivid::literals;
+
+namespace {
+
+effect slack(effect::edit on_inputs) {
+    effect e;
+    e.name = "slack";
+    e.parameters = {{"tau", "s", 0_dec, 0.5_dec, 0_dec}};
+    e.on_inputs = std::move(on_inputs);
+    return e;
+}
+
+/// The truth explains, is not excluded by any program, and lies in the hulls.
+void check_kept(identification_problem const& base, std::vector<effect> const& effects,
+                std::vector<double> const& truth, std::vector<double> const& start = {}) {
+    auto const whole = affected(base, effects);
+    approximate_fit at;
+    at.parameters = truth;
+    for (auto const& x : whole.experiments) {
+        at.starts.push_back(mid(x.initial));
+        std::copy(start.begin(), start.end(), at.starts.back().begin());
+    }
+    REQUIRE(verify_at(whole, at).range.upper() <= 1);
+    if (!whole.model.has_memory()) CHECK(bound_inflation(whole, &at, {}).value.lower() <= 1);
+    auto const hull = effect_hulls(base, effects, {.seconds = 20}).parameters;
+    for (std::size_t j = 0; j < truth.size(); ++j) {
+        INFO(whole.choice.unknown[j] << " in [" << hull[j].lower() << ", " << hull[j].upper()
+                                     << "], planted " << truth[j]);
+        CHECK(contains(hull[j], truth[j]));
+    }
+}
+
+/// The cart's input is cut at a limit that each experiment has, from some time on.
+identification_problem cut_inputs(double first, double second, double from = 0) {
+    auto p = small_campaign::problem();
+    for (std::size_t e = 0; e < 2; ++e) {
+        small_campaign::truth real;
+        double const limit = e == 0 ? first : second, begin = e == 0 ? from : 0;
+        real.missing = [limit, begin](double t, double, double force) {
+            return t < begin ? 0.0 : std::clamp(force, -limit, limit) - force;
+        };
+        p.experiments[e].measurements = small_campaign::experiment(e, real).measurements;
+    }
+    return p;
+}
+
+/// a' = w, w' = k u - w/2; the angle is shown modulo a turn.
+struct shaft {
+    static constexpr auto name = "shaft";
+    static constexpr auto states = sivid::states({{"a", "rad", 500}, {"w", "rad/s", 50}});
+    static constexpr auto inputs = sivid::inputs({{"u", "N"}});
+    static constexpr auto channels = sivid::channels({{"a", "rad"}, {"w", "rad/s"}});
+    static constexpr auto constants = sivid::constants({{"k", "1", 1_dec}});
+    template <class T>
+    states_of<shaft, T> rate(T const&, states_of<shaft, T> const& x,
+                             constants_of<shaft, T> const& c, inputs_of<shaft, T> const& u) const {
+        return {x[1], c[0] * u[0] - 0.5 * x[1]};
+    }
+    template <class T>
+    channels_of<shaft, T> observe(T const&, states_of<shaft, T> const& x,
+                                  constants_of<shaft, T> const&, inputs_of<shaft, T> const&) const {
+        return {x[0], x[1]};
+    }
+};
+
+identification_problem turning_shaft(double at, interval const& start, double late,
+                                     double slow_second = 4) {
+    identification_problem p{record_model(shaft{}), {{"k"}, {}}, box{interval(0.9, 1.1)}, {}};
+    for (int e = 0; e < 2; ++e) {
+        double const w = e == 0 ? 4 : slow_second;
+        experiment x;
+        x.name = support::numbered('E', static_cast<std::size_t>(e));
+        x.inputs = {sampled_signal({0, 10}, {w / 2, w / 2}, interpolation::linear)};
+        x.initial = box{start, interval(w)};
+        for (int k = 1; k <= 60; ++k) {
+            double const t = 0.05 * k;
+            double const a = std::remainder(at + w * std::max(0.0, t - late), 2 * std::numbers::pi);
+            x.measurements.push_back({t, 0, interval(a - 0.02, a + 0.02)});
+            x.measurements.push_back({t, 1, interval(w - 0.03, w + 0.03)});
+        }
+        p.experiments.push_back(std::move(x));
+    }
+    return p;
+}
+
+} // namespace
+
+TEST_CASE("an effect that delays an input, and does something else by the same parameter") {
+    double const tau = 0.3;
+    small_campaign::truth real;
+    real.delay = tau;
+    real.k = 1 - tau;
+    auto base = small_campaign::problem(real);
+    base.prior = box{interval(0.9, 1.1)};
+    SECTION("it is weaker, too") {
+        check_kept(base, {slack([](effect_scope& m) {
+                       m.delay_input("u");
+                       m.input("u") *= 1 - m.parameter();
+                   })},
+                   {1, tau});
+    }
+    SECTION("it has a gain of its own") {
+        check_kept(base, {slack([](effect_scope& m) {
+                       m.delay_input("u");
+                       m.input("u") *= expression(0.7);
+                   })},
+                   {1, tau});
+    }
+    SECTION("it pulls at a rate") {
+        auto e = slack([](effect_scope& m) { m.delay_input("u"); });
+        e.on_rates = [](effect_scope& m) {
+            m.rate("v") -= m.parameter() * m.constant("k") * m.input("u");
+        };
+        check_kept(base, {e}, {1, tau});
+    }
+    SECTION("from a time on") {
+        for (std::size_t e = 0; e < 2; ++e) {
+            small_campaign::truth own;
+            own.delay = tau;
+            own.from = 1.5;
+            own.missing = [](double t, double, double force) {
+                return t >= 1.5 ? -0.3 * force : 0.0;
+            };
+            base.experiments[e].measurements = small_campaign::experiment(e, own).measurements;
+        }
+        auto const e = slack([](effect_scope& m) {
+            m.delay_input("u");
+            m.input("u") *= 1 - m.parameter();
+        });
+        auto const hull =
+            hulls_of_episodes(base, only_within(e, {"E1", "E2"}, {1.5, 1.5}), {.seconds = 20});
+        CHECK(contains(hull.parameters[0], 1));
+        CHECK(contains(hull.parameters[1], tau));
+    }
+}
+
+TEST_CASE("a late sensor that shows less by the same parameter") {
+    auto base = diagnosis_support::with_late_position(300);
+    for (auto& x : base.experiments) {
+        for (auto& m : x.measurements) {
+            double const less = 0.7 * mid(m.bound);
+            if (m.channel == 0) m.bound = interval(less - 0.02, less + 0.02);
+        }
+    }
+    effect e;
+    e.name = "filter";
+    e.parameters = {{"tau", "s", 0_dec, 0.5_dec, 0_dec}};
+    e.on_channels = [](effect_scope& m) {
+        m.delay_channel("p");
+        m.channel("p") *= 1 - m.parameter();
+    };
+    check_kept(base, {e}, {1, 0.3});
+}
+
+TEST_CASE("a saturation that acts in one experiment, or from a time on, leaves the others alone") {
+    auto const limit = effects::input_saturation("sat", "u", "N", {0.1_dec, 0.6_dec});
+    check_kept(cut_inputs(0.4, 100), {only_within(limit, {"E1"})}, {1, 0.4});
+    check_kept(cut_inputs(0.4, 100, 1.5), {only_within(limit, {"E1"}, {1.5})}, {1, 0.4});
+    auto base = small_campaign::problem();
+    for (auto& m : base.experiments[0].measurements) {
+        double const c = std::clamp(mid(m.bound), -0.2, 0.2);
+        if (m.channel == 1) m.bound = interval(c - 0.03, c + 0.03);
+    }
+    auto const sensor = effects::sensor_saturation("cut", "v", "m/s", {0.05_dec, 0.4_dec});
+    check_kept(base, {only_within(sensor, {"E1"})}, {1, 0.2});
+}
+
+TEST_CASE("readings that wrap from many turns on, from a start that is not known, and late") {
+    double const turn = 2 * std::numbers::pi;
+    auto const wrapped = [](identification_problem const& p) {
+        return with_wrapped_channels(p, {});
+    };
+    auto const far = turning_shaft(20 * turn + 0.3, interval(20 * turn + 0.3), 0);
+    check_kept(far, wrapped(far), {1, turn});
+    auto const open = turning_shaft(0.3, interval(0.0, 50.0), 0);
+    check_kept(open, wrapped(open), {1, turn}, {0.3});
+    for (double const second : {4.0, 0.1}) { // without a leap of its own, too
+        auto const late = turning_shaft(0, interval(0.0), 0.1, second);
+        auto effects = wrapped(late);
+        effects.push_back(effects::sensor_latency("late", {"a"}, {0_dec, 0.5_dec}));
+        check_kept(late, effects, {1, turn, 0.1});
+    }
+}
+
+TEST_CASE("a model's own delay is not scaled in silence") {
+    auto p = small_campaign::problem();
+    p.model.about.constants.push_back({"tau", "s", literal{interval(0.2), 0.2}});
+    p.model.input_memory.push_back({0, 2, memory_kind::delay, {}});
+    effect e;
+    e.name = "slower";
+    e.parameters = {{"k", "1", 0_dec, 1_dec, 0_dec}};
+    e.on_inputs = [](effect_scope& m) { m.constant("tau") *= 1 + m.parameter(); };
+    CHECK_THROWS_WITH(with(p.model, {e}), ContainsSubstring("'tau' is a delay or a play"));
+}
+
+TEST_CASE("a campaign's experiments have names of their own") {
+    auto p = small_campaign::problem();
+    p.experiments[1].name = p.experiments[0].name;
+    CHECK_NOTHROW(p.require_valid());
+    CHECK_THROWS_WITH(p.require_valid_campaign(),
+                      ContainsSubstring("two experiments are called 'E1'"));
+    CHECK_THROWS_AS(sensor_discharge(p), std::invalid_argument);
+    CHECK_THROWS_AS(examine_relations(p), std::invalid_argument);
+}
