@@ -116,8 +116,7 @@ TEST_CASE("resolving delays moves signals and measurements and drops the unknown
     CHECK_THROWS_AS(resolve_memory(p, {1.25, -0.25, 0.15}), std::invalid_argument);
 }
 
-TEST_CASE(
-    "counts of readings move with late readings; with some that are late, any count is possible") {
+TEST_CASE("counts of readings move with late readings, and are any where only some are late") {
     sampled_signal const counts({0.0, 1.0, 2.0}, {0.0, 1.0, -1.0}, interpolation::hold);
     auto const moved = counts_of_late(counts, dead_time{0.5}, 0);
     CHECK(moved.approximate(0.25) == 0);
