@@ -219,6 +219,94 @@ TEST_CASE("a model's own delay is not scaled in silence") {
     CHECK_THROWS_WITH(with(p.model, {e}), ContainsSubstring("'tau' is a delay or a play"));
 }
 
+namespace {
+
+/// v' = p u - b v, w' = p f - b w, where b = 10 q follows from q.
+struct two_carts {
+    static constexpr auto name = "carts";
+    static constexpr auto states = sivid::states({{"v", "m/s", 20}, {"w", "m/s", 20}});
+    static constexpr auto inputs = sivid::inputs({{"u", "N"}, {"f", "N"}});
+    static constexpr auto channels = sivid::channels({{"v", "m/s"}, {"w", "m/s"}});
+    static constexpr auto constants =
+        sivid::constants({{"p", "1", 1_dec}, {"q", "1", 0.2_dec}, {"b", "1", 2_dec}});
+    template <class T>
+    vec<T, 2> rate(T const&, vec<T, 2> const& x, vec<T, 3> const& c, vec<T, 2> const& u) const {
+        return {c[0] * u[0] - c[2] * x[0], c[0] * u[1] - c[2] * x[1]};
+    }
+    template <class T>
+    vec<T, 2> observe(T const&, vec<T, 2> const& x, vec<T, 3> const&, vec<T, 2> const&) const {
+        return x;
+    }
+    template <class T>
+    std::array<relation_of_constants<T>, 1> derived(vec<T, 3> const& c) const {
+        return {{{"b", 10.0 * c[1]}}};
+    }
+};
+
+} // namespace
+
+TEST_CASE("a constant that follows from others does so in the problem of a suspected sensor") {
+    auto const m = record_model(two_carts{});
+    identification_problem p{
+        m, {{"p", "q"}, {}}, box{interval(0.8, 1.2), interval(0.02, 0.05)}, {}};
+    diagnosis_support::draws d(7);
+    double const damping = 0.3, error = 0.005;
+    for (double const pace : {1.1, 1.7}) {
+        std::vector<sampled_signal> inputs;
+        for (double const own : {pace, 0.9}) {
+            std::vector<double> t, u;
+            for (int k = 0; k <= 500; ++k) {
+                t.push_back(k * 0.01);
+                u.push_back((own == pace ? 2 : 1.5) * std::sin(own * t.back()));
+            }
+            inputs.emplace_back(t, u, interpolation::linear);
+        }
+        auto choice = p.choice;
+        auto const truth = diagnosis_support::simulate(
+            support::model_of({2, 1, 2, 20},
+                              [](auto const&, auto const& x, auto const& c, auto const& u) {
+                                  using T = std::decay_t<decltype(x[0])>;
+                                  return std::vector<T>{u[0] - c[0] * x[0], u[1] - c[0] * x[1]};
+                              }),
+            {damping}, inputs, {0.5, -0.5}, 5, 0.001);
+        experiment e;
+        e.name = pace < 1.5 ? "A" : "B";
+        e.inputs = {inputs[0], inputs[1]};
+        e.initial = box{interval(0.5), interval(-0.5)};
+        for (int k = 1; k <= 50; ++k) {
+            auto const x = truth.at(0.1 * k); // the first sensor shows 9 % too much
+            for (std::size_t y = 0; y < 2; ++y) {
+                double const shown = (y == 0 ? 1.09 : 1.0) * x[y] + d.uniform(-0.9, 0.9) * error;
+                e.measurements.push_back({0.1 * k, y, interval(shown - error, shown + error)});
+            }
+        }
+        p.experiments.push_back(std::move(e));
+    }
+    auto const suspect = suspect_of(p, faults_of(p, {0, 1}, 0, {}), {}, 0, 0).problem.model;
+    graph_range formula(suspect.g, {suspect.derived[0].value});
+    box known(suspect.about.constants.size());
+    known[1] = interval(0.5);
+    formula.evaluate({interval(0.0), {}, known, {}});
+    CHECK(contains(formula.value(suspect.derived[0].value), 5));
+    for (auto const& f : find_broken_relations(p)) CHECK_FALSE(sensor_discharge(p)(f).has_value());
+}
+
+TEST_CASE("a delay does not follow from other constants in silence") {
+    auto p = small_campaign::problem();
+    p.model.input_memory.push_back({0, 1, memory_kind::delay, {}}); // d, for once
+    CHECK_NOTHROW(p.require_valid());
+    p.model.derived.push_back({1, p.model.g.leaf(operation::constant, 0), false});
+    CHECK_THROWS_WITH(p.require_valid(), ContainsSubstring("'d' is a delay or a play"));
+}
+
+TEST_CASE("a start that is known within little is known within much of a small unit") {
+    auto p = small_campaign::problem();
+    for (auto& x : p.experiments) x.initial = box{interval(0, 4e-10), interval(0.0)};
+    CHECK(has_uncertain_starts(p));
+    for (auto& x : p.experiments) x.initial = box{interval(0.1), hull(0.1_dec, 0.1_dec)};
+    CHECK_FALSE(has_uncertain_starts(p));
+}
+
 TEST_CASE("a campaign's experiments have names of their own") {
     auto p = small_campaign::problem();
     p.experiments[1].name = p.experiments[0].name;

@@ -65,6 +65,19 @@ struct parameter_choice {
     return result;
 }
 
+/// @throws std::invalid_argument where a delay, a play or a rate limit follows from other
+/// constants:
+///         what remembers would not know
+inline void require_own_memory(recorded_model const& model, parameter_choice const& choice) {
+    for (auto const& d : followed(model, choice))
+        for (auto const* all : {&model.input_memory, &model.channel_delays})
+            for (auto const& m : *all)
+                if (m.constant == d.constant)
+                    throw std::invalid_argument("'" + model.about.constants[d.constant].name +
+                                                "' is a delay or a play: it cannot follow from "
+                                                "other constants");
+}
+
 /// What a choice makes of the derived constants, in sentences; those that stay nominal need none.
 [[nodiscard]] inline std::vector<std::string> derivation_words(recorded_model const& model,
                                                                parameter_choice const& choice) {

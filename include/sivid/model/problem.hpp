@@ -74,6 +74,7 @@ struct identification_problem {
             throw std::invalid_argument("identification problem: " + what);
         };
         if (choice.unknown.empty()) fail("no unknown parameter");
+        require_own_memory(model, choice);
         if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
         auto const bounded = [](box const& x) {
             return std::all_of(x.begin(), x.end(),

@@ -120,6 +120,7 @@ counts_of_late(sampled_signal const& counts, std::optional<dead_time> const& lat
                                                     std::vector<double> const& parameters) {
     if (remembers_formulas(original))
         throw std::invalid_argument("a play or a rate limit needs a recorded input");
+    require_own_memory(original.model, original.choice);
     memory_resolved result{original, {}};
     auto& problem = result.problem;
     auto& model = problem.model;

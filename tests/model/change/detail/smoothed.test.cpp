@@ -4,6 +4,8 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
+#include <sivid/model/graph/graph_range.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -112,6 +114,19 @@ TEST_CASE("a smoothed model holds the model it came from, and no kink") {
             CHECK(std::abs(mid(middle[i]) - mid(exact[i])) <= 2.001 * of_state);
         }
     }
+}
+
+TEST_CASE("constants that follow from others do so in a smoothed model") {
+    auto model = record_model(kinked());
+    auto const two = expression(2).in(model.g);
+    model.about.constants.push_back({"twice", "N", {interval(1.0), 1}});
+    auto const twice = model.g.mul(two, model.g.leaf(operation::constant, 0));
+    model.derived.push_back({1, twice, false});
+    auto const smooth = smoothed(model, 1e-6).model;
+    graph_range formula(smooth.g, {smooth.derived[0].value});
+    formula.evaluate({interval(0.0), {}, box{interval(0.75), interval(0.0)}, {}});
+    CHECK(contains(formula.value(smooth.derived[0].value), 1.5));
+    CHECK(width(formula.value(smooth.derived[0].value)) < 1e-12);
 }
 
 TEST_CASE("a model without moving kinks has nothing to smooth") {

@@ -147,6 +147,7 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
     for (auto& a : model.added_states) {
         a.at_begin = copy_into(g, source.model.g, {a.at_begin}, plain).front();
     }
+    for (auto& d : model.derived) d.value = copy_into(g, source.model.g, {d.value}, plain).front();
     model.g = std::move(g);
     problem.prior = box(sides.size());
     for (std::size_t j = 0; j < sides.size(); ++j) problem.prior[j] = sides[j];

@@ -76,6 +76,7 @@ struct smoothed_model {
     for (auto& a : made.added_states) {
         a.at_begin = copy_into(made.g, model.g, {a.at_begin}, same_leaf).front();
     }
+    for (auto& d : made.derived) d.value = copy_into(made.g, model.g, {d.value}, same_leaf).front();
     return result;
 }
 

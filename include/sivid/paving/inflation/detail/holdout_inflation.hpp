@@ -45,7 +45,7 @@ holdout_inflation(identification_problem const& fit, inflation_bound const& fitt
 [[nodiscard]] inline bool has_uncertain_starts(identification_problem const& problem) {
     return std::any_of(problem.experiments.begin(), problem.experiments.end(), [](auto const& e) {
         return std::any_of(e.initial.begin(), e.initial.end(),
-                           [](interval const& x) { return !(width(x) < 1e-9); });
+                           [](interval const& x) { return !(width(x) <= 1e-15 * mag(x)); });
     });
 }
 
