@@ -97,7 +97,9 @@ int guarded_on_ranks(std::string const& name, int& argc, char**& argv, Program c
     if (failed && all->several()) {
         if (all->helps()) { // unless rank 0 has ended the job by then, it is this one's alone
             std::this_thread::sleep_for(std::chrono::seconds(2));
-            std::cerr << "rank " << all->rank() << ": " << kept.str() << std::flush;
+            // At once, lest what others write come in between.
+            auto const words = "rank " + std::to_string(all->rank()) + ": " + kept.str();
+            std::cerr << words << std::flush;
         }
         std::cout << std::flush;
         ranks::end_all(code);
