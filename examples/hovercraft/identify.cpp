@@ -333,6 +333,7 @@ int run(identify_command const& c) {
             "other effects say, are identified slice by slice, by one process: give a budget and "
             "no other options of a search");
     auto const title = title_of(data, c.effects);
+    auto const further = assumptions_of(data, model, c.effects);
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
@@ -452,7 +453,7 @@ int run(identify_command const& c) {
     if (c.identifiability) told = identifiability_at(problem, found, limit);
     report::identification_report_options about{.dataset = title,
                                                 .meanings = constant_meanings(),
-                                                .further_assumptions = data.assumptions,
+                                                .further_assumptions = further,
                                                 .plane = report::plane_channels{"x", "y", "psi"},
                                                 .date = console::today(),
                                                 .machine = console::machine_text(),
@@ -486,7 +487,7 @@ int run(identify_command const& c) {
                   sivid::identification_json(problem, found,
                                              {.dataset = data.id,
                                               .effects = c.effects,
-                                              .further_assumptions = data.assumptions,
+                                              .further_assumptions = further,
                                               .source_folder = console::seen_from(c.out, c.dataset),
                                               .source_digest = digest,
                                               .identifiability = told ? &*told : nullptr}));

@@ -28,6 +28,17 @@ struct remembering_problem {
     std::vector<sivid::effect> effects;
 };
 
+/// What a data set's result with effects rests on besides what is proved.
+inline std::vector<std::string> assumptions_of(sivid::dataset const& data,
+                                               sivid::recorded_model const& model,
+                                               std::vector<std::string> const& effects) {
+    auto result = data.assumptions;
+    auto const named =
+        sivid::effects_named(sivid::chosen_effects(catalogue(), data), effects, &model.about);
+    for (auto& words : sivid::wrap_assumptions(named)) result.push_back(std::move(words));
+    return result;
+}
+
 /// The identification problem of a data set, effects of the catalogue joined to its model.
 /// @param remembering  receives what it was made of where it has such effects; null: they are
 ///                     refused

@@ -133,3 +133,13 @@ TEST_CASE("a state that starts at a derived constant starts where its formula sa
     CHECK(width(p.experiments[0].initial[2]) < 2.001 * width(p.prior[0]));
     CHECK(width(p.prior[0]) > 0);
 }
+
+TEST_CASE("what counted readings rest on is said of each effect that counts") {
+    using namespace sivid::literals;
+    auto const words = sivid::wrap_assumptions(
+        {sivid::effects::input_gain("gain", "u", {0.5_dec, 2_dec}),
+         sivid::effects::sensor_wrap("turned", "p", "m", {0_dec, 13_dec}, 3.25)});
+    REQUIRE(words.size() == 1);
+    CHECK_THAT(words[0], ContainsSubstring("p has wrapped") && ContainsSubstring("3.25") &&
+                             ContainsSubstring("within half a turn of where it starts"));
+}

@@ -6,6 +6,7 @@
 #include <sivid/model/change/added_start.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -45,6 +46,18 @@ inline void start_added_states(identification_problem& problem) {
             return std::any_of(problem.model.added_states.begin(), problem.model.added_states.end(),
                                [&](added_state const& a) { return width(e.initial[a.state]) > 0; });
         });
+}
+
+/// What counted readings rest on, in words: for each effect that shows a channel modulo something.
+[[nodiscard]] inline std::vector<std::string> wrap_assumptions(std::vector<effect> const& effects) {
+    std::vector<std::string> words;
+    for (auto const& e : effects)
+        if (e.wraps)
+            words.push_back(e.wraps->channel + " has wrapped as often as its readings leap by " +
+                            nearest_text(e.wraps->least) +
+                            " or more, and is first read within half a turn of where it starts, "
+                            "or, where that is not known so well, as it is");
+    return words;
 }
 
 /// The same experiments, with effects joined to the model. The parameters of the effects become

@@ -65,9 +65,9 @@ struct parameter_choice {
     return result;
 }
 
-/// @throws std::invalid_argument where a delay, a play or a rate limit follows from other
-/// constants:
-///         what remembers would not know
+/// A delay, a play or a rate limit may not follow from other constants: what remembers would not
+/// know.
+/// @throws std::invalid_argument that names it
 inline void require_own_memory(recorded_model const& model, parameter_choice const& choice) {
     for (auto const& d : followed(model, choice))
         for (auto const* all : {&model.input_memory, &model.channel_delays})

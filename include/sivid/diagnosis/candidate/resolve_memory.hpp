@@ -94,10 +94,9 @@ struct memory_resolved {
     return false;
 }
 
-/// What counts the readings of a channel, at the times of which they tell. Where some are later
-/// than others, or of before the begin, counts change places with them: any of them is possible
-/// then.
-/// @param late  nothing: not all alike
+/// What counts the readings of a channel, at the times of which they tell. Any count is possible
+/// where some are later than others, or of before the begin: counts would change places.
+/// @param late  of the readings; nothing: not all alike
 [[nodiscard]] inline sampled_signal
 counts_of_late(sampled_signal const& counts, std::optional<dead_time> const& late, double begin) {
     std::vector<double> times;

@@ -2,11 +2,11 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DESCRIBE_CANDIDATE_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DESCRIBE_CANDIDATE_HPP
 
+#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/structure/find_combinations.hpp>
-#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -108,13 +108,8 @@ inline void add_constants_at_ends(std::vector<std::string> const& effects,
     for (std::size_t j = own; j < s.fit.parameters.size(); ++j) {
         c.parameters.push_back(named_parameter(s.problem, j, s.fit.parameters[j]));
     }
-    for (auto const e : s.figures.effects) {
-        if (auto const& w = catalogue[e].wraps)
-            c.assumptions.push_back(w->channel + " has wrapped as often as its readings leap by " +
-                                    nearest_text(w->least) +
-                                    " or more, and is first read within half a turn of where it "
-                                    "starts, or, where that is not known so well, as it is");
-    }
+    for (auto const e : s.figures.effects)
+        for (auto& words : wrap_assumptions({catalogue[e]})) c.assumptions.push_back(words);
     return c;
 }
 
