@@ -62,10 +62,11 @@ SIVID_DECL identification identify_remembering(identification_problem const& bas
     result.verdict = none             ? verdict::inconsistent
                      : result.witness ? verdict::consistent
                                       : verdict::undecided;
+    bool const in_time = limit(); // asked first: what tells the two apart knows as much later
     bool const ended = options.keep_going && !options.keep_going();
     result.reason = none      ? stop_reason::decided
                     : ended   ? stop_reason::cancelled
-                    : limit() ? stop_reason::accuracy_reached // of slices
+                    : in_time ? stop_reason::accuracy_reached // of slices
                               : stop_reason::time_budget;
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

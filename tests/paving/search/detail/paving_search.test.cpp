@@ -435,6 +435,17 @@ TEST_CASE("a step during which the test is told to stop is undone, and can be ma
     std::size_t asked = 0;
     o.keep_going = [&asked] { return ++asked < 20; };
     CHECK(invert(complete, square, o).reason == stop_reason::cancelled);
+    // Who says stop to both, too, at whatever moment: here just after the search has asked.
+    for (std::size_t const when : {1u, 5u, 20u}) {
+        interrupted_ring test{complete, whole.tested};
+        asked = 0;
+        o.keep_going = [&] {
+            bool const goes_on = test.calls <= test.last;
+            if (++asked == when) test.last = 0, test.calls = 1;
+            return goes_on;
+        };
+        CHECK(invert(test, square, o).reason == stop_reason::cancelled);
+    }
 }
 
 TEST_CASE("integrations that are told to stop leave a search that goes on as if nothing had been") {

@@ -74,12 +74,14 @@ public:
         double const inner = paving_.inner_volume().upper();
         double const outer = paving_.outer_volume().upper() + waiting_.volume();
         std::optional<stop_reason> stop;
+        // Asked first: who told the test to stop says so after it, too.
+        bool const cut = cut_short();
         bool const cancelled =
             (options_.progress &&
              !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) ||
             (options_.keep_going && !options_.keep_going());
         double const now = seconds();
-        if (now > options_.seconds || (!cancelled && cut_short())) {
+        if (now > options_.seconds || (!cancelled && cut)) {
             stop = stop_reason::time_budget;
         } else if (tested_ >= options_.boxes) {
             stop = stop_reason::box_budget;
