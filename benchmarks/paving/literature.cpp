@@ -190,7 +190,7 @@ void compare(char const* title, classic const& c, std::vector<char const*> const
 int main(int count, char** arguments) {
     settings s;
     std::vector<std::string> const words(arguments + 1, arguments + count);
-    for (std::size_t i = 0; i < words.size(); ++i) {
+    for (std::size_t i = 0; i < words.size(); i += 2) { // an option and its value
         bool const more = i + 1 < words.size();
         double const value = more ? std::strtod(words[i + 1].c_str(), nullptr) : 0;
         if (more && words[i] == "--seconds" && value > 0) {
@@ -201,7 +201,6 @@ int main(int count, char** arguments) {
             std::fprintf(stderr, "sivid_benchmark_literature [--seconds S] [--runs N]\n");
             return 2;
         }
-        ++i;
     }
     compare("Two compartments (Kieffer and Walter 2011), prior [0.01, 1]^3, errors 0.005",
             two_compartments_problem(),
