@@ -601,6 +601,28 @@ TEST_CASE("parametric flow: a function left its domain, as a value") {
     REQUIRE(run.step(0.5));
 }
 
+TEST_CASE("parametric flow: a power 0 is 1 where its base is defined") {
+    auto const f =
+        flow_of(model_of({1, 1}, [](auto const& t, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] * pown(sqrt(t + 2), 0) * pown(log(x[0]), 0)};
+        }));
+    parametric_flow<> run(*f, {}, 2, 4);
+    draws d(89);
+    run.begin(0, box{between(1.5, 2)}, box{between(1, 2)});
+    while (run.time() < 1) {
+        double const from = run.time();
+        REQUIRE(run.step(1));
+        check_step(
+            run, 0, from, d, 5,
+            [](extended t, auto const& x0, auto const& p) {
+                return extended_state{x0[0] + p[0] * t};
+            },
+            1e-17L);
+    }
+    run.begin(0, box{between(-1, 2)}, box{between(1, 2)});
+    CHECK_FALSE(run.step(1));
+}
+
 TEST_CASE("parametric flow: the shortest step is tried before giving up") {
     auto const f =
         flow_of(model_of({1, 0, 0, 100}, [](auto const&, auto const& x, auto const&, auto const&) {

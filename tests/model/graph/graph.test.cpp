@@ -8,6 +8,7 @@
 #include "support/formulas.hpp"
 #include "support/models.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace sivid;
@@ -74,6 +75,8 @@ TEST_CASE("rewriting never enlarges the domain") {
     CHECK(undefined(0 / x));
     CHECK(undefined(x / x));
     CHECK(undefined(pown(log(x), 0)));
+    CHECK(undefined(pown(pown(log(x), 0), 0)));
+    CHECK(undefined(pown(-sqrt(x), 0) - pown(-sqrt(x), 0)));
     CHECK(undefined(pown(x, -2) * 0));
     CHECK(undefined(abs(sqrt(x))));
     CHECK(undefined(min(log(x), log(x))));
@@ -180,6 +183,25 @@ TEST_CASE("a graph keeps operands before their users") {
         if (is_leaf(n.op)) continue;
         CHECK(n.a < i);
         if (is_binary(n.op)) CHECK(n.b < i);
+    }
+}
+
+TEST_CASE("powers have an exponent above 2, whose recurrence reads the next lower one") {
+    graph g;
+    expression const x(g, g.leaf(operation::state, 0));
+    expression const root = sqrt(x);
+    support::place_box where;
+    where.x[0] = support::between(1, 4);
+    for (int n = -4; n <= 4; ++n) {
+        auto const y = support::evaluate(g, {pown(root, n).in(g)}, where);
+        CHECK_FALSE(y.undefined);
+        CHECK(y.outputs[0].lower() == std::pow(2, std::min(n, 0)));
+        CHECK(y.outputs[0].upper() == std::pow(2, std::max(n, 0)));
+    }
+    for (auto const& n : g.nodes()) {
+        if (n.op != operation::pown) continue;
+        CHECK(n.index > 2);
+        CHECK(n.companion == g.pown(n.a, n.index - 1));
     }
 }
 

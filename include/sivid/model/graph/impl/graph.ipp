@@ -190,7 +190,9 @@ SIVID_DECL node_id graph::unary(operation op, node_id a) {
 }
 
 SIVID_DECL node_id graph::pown(node_id a, int n) {
-    if (n == 0) return total_[a] ? constant(1.0) : shared(operation::pown, a, a, 0);
+    // The recurrence of a power needs the next lower one: 0, 1 and 2 are written without. The
+    // product with 0 keeps the domain of a.
+    if (n == 0) return total_[a] ? constant(1.0) : add(constant(1.0), mul(constant(0.0), a));
     if (n == 1) return a;
     if (n == 2) return unary(operation::sqr, a);
     if (n < 0) return div(constant(1.0), pown(a, -n));
