@@ -267,6 +267,22 @@ TEST_CASE("kinks, sampled inputs and jumps") {
     CHECK(std::isinf(run.output_derivatives()[0].r()));
 }
 
+TEST_CASE("a sign of parameters alone jumps, too, though never in time") {
+    auto const f = support::flow_of(
+        support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{sign(p[0]) - 0.1 * x[0]};
+        }));
+    // x(1) differs by about 2 from p = -1 to p = 1: no bound on dx/dp but infinity holds.
+    auto const across = sensitivities_at(*f, {}, box{interval(1.0)}, box{between(-1, 1)}, 0, {1.0});
+    REQUIRE(across.size() == 1);
+    CHECK(width(range(across[0].outputs[0])) > 1.8);
+    CHECK(std::isinf(across[0].derivatives[1].r()));
+    auto const beside =
+        sensitivities_at(*f, {}, box{interval(1.0)}, box{between(0.5, 1)}, 0, {1.0});
+    REQUIRE(beside.size() == 1);
+    CHECK(mag(beside[0].over_box(0, 1)) < 1e-9);
+}
+
 TEST_CASE("the hovercraft's outputs by its parameters, over a box") {
     std::vector<signal> const inputs{
         analytic_signal::from([](auto const&) { return 250 / expression(3); }),

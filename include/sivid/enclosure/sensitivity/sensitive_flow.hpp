@@ -217,8 +217,9 @@ private:
         std::optional<std::vector<double>> w;
         for (;; L = std::max<std::size_t>(1, L / 2)) {
             series_.expand_with_variations(from, entry::constant(from), around_, L - 1);
+            // A sign of parameters alone never changes in time: it is no kink, but still a jump.
             if (L > 1 && tail_.covers() && !series_.undefined() && !series_.kinked() &&
-                tail_.bound_variations(series_, h, L)) {
+                !series_.jumped() && tail_.bound_variations(series_, h, L)) {
                 carry(nullptr, length, L);
                 return true;
             }
