@@ -8,6 +8,7 @@
 #include "support/systems.hpp"
 
 #include <sivid/enclosure/trajectory.hpp>
+#include <sivid/number/mp_interval.hpp>
 
 #include <cmath>
 
@@ -102,4 +103,28 @@ TEST_CASE("an output that is not defined on the whole set says so") {
     run.begin(0, box{between(1, 2)}, box{});
     look.set_ensemble(run.ensemble());
     CHECK(look(run.set())[0].defined);
+}
+
+TEST_CASE("a set narrower than a double: its centre may stand on the other side of a jump") {
+    // x(1) = 1/10, the double next to it is above the jump.
+    auto const f = support::flow_of(support::model_of(
+        {1, 0},
+        [](auto const& t, auto const&, auto const&, auto const&) { return std::vector{t / 5}; },
+        [](auto const&, auto const& x, auto const&, auto const&) {
+            return std::vector{sign((10 * x[0] - 1) - std::ldexp(1.0, -55))};
+        }));
+    using traits = interval_traits<mp_interval>;
+    trajectory<mp_interval> run(*f, {});
+    run.begin(0, basic_box<mp_interval>{traits::point(0.0)}, basic_box<mp_interval>(0));
+    while (run.time() < 1) REQUIRE(run.step(1));
+    auto const& set = run.set();
+    REQUIRE_FALSE(traits::contains(set.hull[0], set.centre[0]));
+    observer<mp_interval> look(*f);
+    look.set_ensemble(run.ensemble());
+    auto const y = look(set)[0];
+    CHECK(y.defined);
+    for (auto const& says : {y.value, y.rest}) {
+        CHECK(traits::lower(says) == -1);
+        CHECK(traits::upper(says) == -1);
+    }
 }

@@ -48,7 +48,11 @@ public:
         auto const columns = n + flow_->parameters();
         I const t = traits::point(set.time);
         evaluate(at_set_, t, set.hull_and_centre(), set.time);
-        evaluate(direct_, t, set.hull, set.time);
+        // Slopes go from the centre: no output may jump on the way, and where one does, only what
+        // it is on the set itself counts.
+        evaluate(direct_, t, set.hull_and_centre(), set.time);
+        bool const jumps = direct_.jumped();
+        if (jumps) evaluate(direct_, t, set.hull, set.time);
         evaluate(at_centre_, t, point_box<I>(set.centre), set.time);
         std::vector<observation<I>> result(flow_->channels());
         std::vector<interval_matrix<I>> slopes(result.size(), interval_matrix<I>(1, columns));
@@ -88,7 +92,7 @@ public:
                 sum = traits::add(sum, traits::mul(traits::point(o.gradient[c]), r0[c]));
             }
             o.value = traits::intersect(sum, direct_.output(y, 0));
-            if (direct_.jumped()) { // no mean value across a jump of an output
+            if (jumps) { // no mean value across a jump of an output
                 o.value = o.rest = direct_.output(y, 0);
                 o.gradient.assign(columns, 0.0);
             }
