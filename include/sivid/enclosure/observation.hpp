@@ -42,7 +42,8 @@ public:
 
     /// All channels at the set's time, for all inputs within their error bounds; a held input has
     /// its new value at a knot.
-    /// @guarantee  mean-value form about the set's centre, intersected with the direct evaluation
+    /// @guarantee  mean-value form about the set's centre, intersected with the direct evaluation;
+    ///             that alone where an output may jump between the set and its centre
     [[nodiscard]] std::vector<observation<I>> operator()(doubleton<I> const& set) {
         auto const n = flow_->states();
         auto const columns = n + flow_->parameters();
