@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 
 using namespace sivid;
@@ -81,6 +83,22 @@ TEST_CASE("integer powers of expressions") {
         CAPTURE(n);
         CHECK(encloses(y, support::real::pown(mp(-1.5), n)));
         CHECK(width(y) < 1e-13);
+    }
+}
+
+TEST_CASE("large powers are recorded without a deep stack, larger ones are refused") {
+    graph g;
+    expression const x(g, g.leaf(operation::state, 0));
+    auto const y = pown(x, 100000).in(g);
+    auto const nodes = g.size();
+    CHECK(pown(x, 100000).in(g) == y);
+    CHECK(pown(x, 99999).in(g) == g[y].companion);
+    CHECK(g.size() == nodes);
+    CHECK(pown(expression(2.0), -4).in(g) == g.constant(0.0625));
+    for (int const n : {most_power + 1, -most_power - 1, std::numeric_limits<int>::max(),
+                        std::numeric_limits<int>::min()}) {
+        CHECK_THROWS_WITH(pown(x, n), ContainsSubstring("a power of " + std::to_string(n)));
+        CHECK_THROWS_AS(pown(expression(1.0), n), std::invalid_argument);
     }
 }
 

@@ -21,6 +21,10 @@ namespace sivid {
 
 using node_id = std::uint32_t;
 
+/// Larger powers are neither recorded nor multiplied out: they have a node for each lower one, and
+/// sums of powers have to stay far from overflow.
+inline constexpr int most_power = 1 << 20;
+
 /// One operation of a recorded model. Operands stand before their users in the graph.
 struct node {
     operation op = operation::literal;
@@ -80,6 +84,7 @@ public:
 
     node_id unary(operation op, node_id a);
     node_id binary(operation op, node_id a, node_id b);
+    /// @throws std::invalid_argument  for a power beyond `most_power`
     node_id pown(node_id a, int n);
 
     node_id neg(node_id a) { return unary(operation::neg, a); }

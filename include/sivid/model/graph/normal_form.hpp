@@ -19,9 +19,6 @@ namespace sivid {
 /// 1.
 using node_product = std::vector<std::pair<node_id, int>>;
 
-/// Larger powers are not multiplied out, so that sums of powers stay far from overflow.
-inline constexpr int most_power = 1 << 20;
-
 /// \f$ a b^{sign} \f$, in which common factors cancel.
 /// @given  powers up to `most_power`
 [[nodiscard]] inline node_product quotient(node_product const& a, node_product const& b,
