@@ -145,7 +145,43 @@ std::vector<interval> values_at(recorded_model const& m, std::vector<double> con
     return result;
 }
 
+/// Two of its constants have one name.
+struct named_twice : lag {
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"k", "1/s", 0.1_dec}, {"k", "1/s", 0.1_dec}});
+    }();
+    template <class T>
+    vec<T, 1> rate(T const&, vec<T, 1> const& x, vec<T, 2> const& c, vec<T, 1> const& u) const {
+        return {-c[0] * (x[0] - c[1] * u[0])};
+    }
+    template <class T>
+    vec<T, 1> observe(T const&, vec<T, 1> const& x, vec<T, 2> const&, vec<T, 1> const&) const {
+        return x;
+    }
+};
+
 } // namespace
+
+TEST_CASE("names are unique within a kind") {
+    CHECK_THROWS_WITH(record_model(named_twice{}),
+                      ContainsSubstring("two constants are called 'k'"));
+    auto about = record_model(lag{}).about;
+    CHECK_NOTHROW(model_detail::require_own_names(about)); // a state and a channel may share one
+    auto const refused = [](model_description wrong, std::string const& kind) {
+        CHECK_THROWS_WITH(model_detail::require_own_names(wrong),
+                          ContainsSubstring("two " + kind + " are called"));
+    };
+    auto wrong = about;
+    wrong.states.push_back({"x", "m", 1});
+    refused(wrong, "states");
+    wrong = about;
+    wrong.inputs.push_back({"u", "m"});
+    refused(wrong, "inputs");
+    wrong = about;
+    wrong.channels.push_back({"y", "m"});
+    refused(wrong, "channels");
+}
 
 TEST_CASE("a mass matrix and a constraint give the rates that are worked out by hand") {
     STATIC_REQUIRE(explicit_model<pole>);

@@ -165,6 +165,18 @@ TEST_CASE("a derived constant follows what replaces the constants of its formula
     CHECK_THAT(bound_at(own, {{"B", "D"}, {}}, {5, 3})[0], WithinRel(-8.1, 1e-14));
 }
 
+TEST_CASE("a derived constant may be computed in many steps") {
+    auto m = record_model(disc{});
+    m.derived.clear();
+    expression const d(m.g, m.g.leaf(operation::constant, 1));
+    expression root(1.5); // of d
+    for (int k = 0; k < 40; ++k) root = root - (root * root - d) / (2 * root);
+    model_detail::add_derived(m, "R", root);
+    CHECK(m.about.constants[2].formula == "something that is too long to be shown");
+    CHECK_THAT(bound_at(m, {{"D"}, {}}, {4})[0], WithinRel(-256 / 12.001, 1e-14));
+    CHECK(names_followed(m, {{"D"}, {}}) == names{"R"});
+}
+
 TEST_CASE("relations that make no sense are refused, with the reason") {
     auto const refused = [](std::string const& name, auto const& formula) -> std::string {
         auto m = record_model(disc{});

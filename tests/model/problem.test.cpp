@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 using namespace sivid;
 using support::between;
@@ -25,7 +27,7 @@ TEST_CASE("each defect of a problem is named") {
     auto const empty = interval_traits<interval>::empty();
     double const nan = std::numeric_limits<double>::quiet_NaN();
     auto p = sound();
-    auto const refused = [&p](char const* words) {
+    auto const refused = [&p](std::string const& words) {
         CHECK_THROWS_WITH(p.require_valid(), ContainsSubstring(words));
         CHECK_THROWS_AS(p.require_valid(), std::invalid_argument);
         p = sound();
@@ -52,6 +54,17 @@ TEST_CASE("each defect of a problem is named") {
     refused("E0");
     p.experiments[0].measurements[0].bound = empty;
     refused("empty measurement");
+    double const inf = std::numeric_limits<double>::infinity();
+    for (double const end : {inf, -inf}) {
+        p.experiments[0].measurements[0].bound = interval(end, end); // without a member
+        refused("empty measurement");
+        p.experiments[0].begin = end;
+        refused("no finite time");
+    }
+    p.experiments[0].measurements[0].bound = interval_traits<interval>::bounds(0, inf);
+    CHECK_NOTHROW(p.require_valid());
+    p.choice.fixed[p.choice.unknown[0]] = interval(1.0);
+    refused("'" + p.choice.unknown[0] + "' is unknown and has a fixed value");
     p.experiments[0].begin = nan;
     refused("E0");
 }

@@ -215,7 +215,7 @@ struct model_description {
     struct constant {
         std::string name, unit;
         literal nominal;
-        std::string formula{}; ///< of a derived constant, in the others; else empty
+        std::string formula{}; ///< of a derived one, in the others (`readable_formula`); else empty
     };
     std::string name;
     std::vector<state> states;
@@ -298,7 +298,11 @@ struct recorded_model {
 };
 
 namespace model_detail {
+/// What is known by its name has it alone, among the states, inputs, channels or constants.
+/// @throws std::invalid_argument  naming the two that have one
+SIVID_DECL void require_own_names(model_description const& about);
 /// What a functor says of itself, as data.
+/// @throws std::invalid_argument as `require_own_names`
 [[nodiscard]] SIVID_DECL model_description described(std::string_view name,
                                                      std::span<state_quantity const> states,
                                                      std::span<quantity const> inputs,
@@ -319,6 +323,7 @@ SIVID_DECL void add_derived(recorded_model& model, std::string_view name, expres
 } // namespace model_detail
 
 /// Runs the functor once on the recording scalar.
+/// @throws std::invalid_argument  where two states, inputs, channels or constants have one name
 /// @guarantee evaluating the graph with a sound interval type encloses the functor's real value.
 template <dynamic_model M>
 [[nodiscard]] recorded_model record_model(M const& model = {}) {

@@ -76,6 +76,9 @@ struct identification_problem {
         if (choice.unknown.empty()) fail("no unknown parameter");
         require_own_memory(model, choice);
         if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
+        for (auto const& name : choice.unknown)
+            if (choice.fixed.count(name) != 0)
+                fail("'" + name + "' is unknown and has a fixed value; leave one of them out");
         auto const bounded = [](box const& x) {
             return std::all_of(x.begin(), x.end(),
                                [](interval const& side) { return std::isfinite(mag(side)); });
@@ -90,6 +93,7 @@ struct identification_problem {
             }
             if (is_empty(s.initial)) fail(where + "the initial box is empty");
             if (!bounded(s.initial)) fail(where + "the initial box must be bounded");
+            if (!std::isfinite(s.begin)) fail(where + "it begins at no finite time");
             if (s.measurements.empty()) fail(where + "no measurement");
             if (s.outliers > s.measurements.size()) {
                 fail(where + "more outliers allowed than there are measurements");
@@ -99,7 +103,8 @@ struct identification_problem {
                 if (!(m.time >= s.begin) || !std::isfinite(m.time)) {
                     fail(where + "a measurement before the begin, or at no finite time");
                 }
-                if (is_empty(m.bound)) fail(where + "an empty measurement");
+                if (is_empty(m.bound) || !std::isfinite(mig(m.bound))) // beyond all doubles
+                    fail(where + "an empty measurement");
             }
         }
     }

@@ -4,6 +4,10 @@
 
 #include <sivid/model/model.hpp>
 
+#include <set>
+#include <stdexcept>
+#include <string>
+
 namespace sivid {
 
 SIVID_DECL model_description::model_description() = default;
@@ -12,6 +16,21 @@ SIVID_DECL model_description::model_description(model_description&&) noexcept = 
 SIVID_DECL model_description& model_description::operator=(model_description const&) = default;
 SIVID_DECL model_description& model_description::operator=(model_description&&) noexcept = default;
 SIVID_DECL model_description::~model_description() = default;
+
+SIVID_DECL void model_detail::require_own_names(model_description const& about) {
+    auto const check = [&about](auto const& items, std::string const& kind) {
+        std::set<std::string> names;
+        for (auto const& i : items)
+            if (!names.insert(i.name).second)
+                throw std::invalid_argument("model '" + about.name + "': two " + kind +
+                                            " are called '" + i.name +
+                                            "'; give each a name of its own");
+    };
+    check(about.states, "states");
+    check(about.inputs, "inputs");
+    check(about.channels, "channels");
+    check(about.constants, "constants");
+}
 
 SIVID_DECL model_description model_detail::described(std::string_view name,
                                                      std::span<state_quantity const> states,
@@ -34,6 +53,7 @@ SIVID_DECL model_description model_detail::described(std::string_view name,
         about.constants.push_back({std::string(c.name), std::string(c.unit),
                                    literal{enclose(c.nominal), nearest(c.nominal)}});
     }
+    require_own_names(about);
     return about;
 }
 
@@ -69,7 +89,8 @@ SIVID_DECL void model_detail::add_derived(recorded_model& model, std::string_vie
         if (k == d.constant) fail("is a function of itself");
         return to.constant(constants[k].nominal);
     });
-    constants[d.constant].formula = formula_text(model.g, d.value, {names});
+    constexpr double most = 1000; // parts, in which shared ones are repeated
+    constants[d.constant].formula = readable_formula(model.g, d.value, {names}, most);
     double const stated = constants[d.constant].nominal.nearest;
     bool const defined = at_nominal.is_literal(result.front());
     double const given = defined ? at_nominal.value(at_nominal[result.front()]).nearest : 0;

@@ -26,3 +26,14 @@ TEST_CASE("formulas of constants as text, with the brackets that they need") {
     CHECK(text(max(a, b)) == "max(a, b)");
     CHECK(text(4 * atan(expression(1.0)) * sqr(a) / 4) == "3.141592653589793 * a^2 / 4");
 }
+
+TEST_CASE("a formula is readable where it has few parts, and costs little where it has many") {
+    graph g;
+    expression const a(g, g.leaf(operation::constant, 0));
+    CHECK(readable_formula(g, (a + sqr(a)).in(g), {{"a"}}) == "a + a^2");
+    CHECK(readable_formula(g, (a + sqr(a)).in(g), {{"a"}}, 3) ==
+          "something that is too long to be shown");
+    auto root = a;
+    for (int k = 0; k < 60; ++k) root = root - (root * root - 2) / (2 * root); // 5^60 parts
+    CHECK(readable_formula(g, root.in(g), {{"a"}}) == "something that is too long to be shown");
+}

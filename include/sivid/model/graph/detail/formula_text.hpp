@@ -101,6 +101,15 @@ struct leaf_names {
     }
 }
 
+/// `formula_text` for people to read: in place of one of more than `most` parts, the words that it
+/// is too long.
+/// @cost  O(size of the graph) but for the text
+[[nodiscard]] inline std::string readable_formula(graph const& g, node_id i,
+                                                  leaf_names const& names, double most = 80) {
+    return is_short(g, i, names, most) ? formula_text(g, i, names)
+                                       : "something that is too long to be shown";
+}
+
 } // namespace sivid
 
 #endif
