@@ -38,8 +38,8 @@ struct loop {
     sivid::closed_model closed;
     sivid::prediction_problem problem;
 
-    loop(std::string const& law, double slew) {
-        sivid::closed_loop l(plant());
+    loop(std::string const& law, double slew, sivid::recorded_model model = plant()) {
+        sivid::closed_loop l(std::move(model));
         l.sensor("y0", sensor);
         l.sampled(period, delay);
         l.slew("u0", slew);
@@ -158,6 +158,23 @@ TEST_CASE("a limit of the slew that is not kept proves nothing") {
     CHECK(fast.answer("x0 < 2") == sivid::requirement_answer::refuted);
     loop just("u0 = 3 * (1 - measured(y0))", 8);
     CHECK(just.answer("x0 < 2") != sivid::requirement_answer::proved);
+}
+
+TEST_CASE("a channel of the model that has the name of a rate does not stand for it") {
+    auto model = plant();
+    model.about.channels.push_back({"u0.slew", "1"});
+    model.observe.push_back(model.g.constant(0.0));
+    model.about.channels.push_back({"u0", "1"});
+    model.observe.push_back(model.g.constant(0.0));
+    loop just("u0 = 3 * (1 - measured(y0))", 8, model); // 9 at the begin
+    CHECK(just.answer("x0 < 2") != sivid::requirement_answer::proved);
+    loop kept("u0 = 3 * (1 - measured(y0))", 12, model);
+    CHECK(kept.answer("x0 < 2") == sivid::requirement_answer::proved);
+    auto const& channels = kept.closed.model.about.channels;
+    REQUIRE(channels.size() == 5);
+    CHECK(channels[3].name == "u0.command");
+    CHECK(channels[4].name == "u0.slew.slew");
+    CHECK(kept.closed.slews[0].channel == channels[4].name);
 }
 
 TEST_CASE("the rate of a command holds for any error of the sample") {

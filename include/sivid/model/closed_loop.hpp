@@ -19,7 +19,7 @@ namespace sivid {
 /// A model under a control law: a model like any other, whose inputs are those that the law leaves
 /// open, then the law's own.
 struct closed_model {
-    recorded_model model; ///< what the law commands are channels of the inputs' names
+    recorded_model model; ///< what the law commands are channels of the inputs' names, if free
     /// The inputs of the open model that are still to be given.
     std::vector<std::size_t> kept_inputs;
     std::vector<signal> own_inputs; ///< what the law adds: switches in time, errors of sensors
@@ -30,7 +30,7 @@ struct closed_model {
     /// What has to hold for a sampled law, or nothing is said of it: the channel's value, the rate
     /// at which a law changes its command, is always below the limit in absolute value.
     struct slew {
-        std::string channel; ///< "W.slew"
+        std::string channel; ///< "W.slew", or "W.slew.slew" where the model has a channel W.slew
         double limit = 0;    ///< [unit/s]
     };
     std::vector<slew> slews;

@@ -50,6 +50,18 @@ inline node_id rate_of(recorded_model& m, node_id value,
     return sum;
 }
 
+/// Adds a channel, under another name where that one is taken.
+/// @returns  its name
+inline std::string add_channel(recorded_model& m, std::string name, std::string const& more,
+                               std::string const& unit, node_id value) {
+    auto& channels = m.about.channels;
+    auto const taken = [&](auto const& c) { return c.name == name; };
+    while (std::any_of(channels.begin(), channels.end(), taken)) name += more;
+    channels.push_back({name, unit});
+    m.observe.push_back(value);
+    return name;
+}
+
 } // namespace model_detail
 
 SIVID_DECL std::vector<signal> closed_model::inputs(std::vector<signal> const& open) const {
@@ -298,12 +310,7 @@ SIVID_DECL closed_model closed_loop::finish() const {
     }
     for (auto const& [input, image] : image_of) {
         auto const& own = from.about.inputs[input];
-        auto name = own.name;
-        for (auto const& c : from.about.channels) {
-            if (c.name == own.name) name += ".command";
-        }
-        to.about.channels.push_back({name, own.unit});
-        to.observe.push_back(image);
+        (void)model_detail::add_channel(to, own.name, ".command", own.unit, image);
     }
     std::map<std::size_t, double> errors; // of sensors, by input of the closed model
     for (std::size_t k = 0; k < own_inputs_.size(); ++k) {
@@ -313,9 +320,10 @@ SIVID_DECL closed_model closed_loop::finish() const {
     }
     for (auto const& [input, law] : held) {
         auto const& own = from.about.inputs[input];
-        result.slews.push_back({own.name + ".slew", slews_.at(input)});
-        to.about.channels.push_back({own.name + ".slew", own.unit + "/s"});
-        to.observe.push_back(model_detail::rate_of(to, law, errors));
+        auto const rate = model_detail::rate_of(to, law, errors);
+        result.slews.push_back(
+            {model_detail::add_channel(to, own.name + ".slew", ".slew", own.unit + "/s", rate),
+             slews_.at(input)});
     }
     return result;
 }
