@@ -16,6 +16,7 @@
 #include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
 #include <sivid/model/effects.hpp>
 #include <sivid/paving/inflation.hpp>
+#include <sivid/paving/inflation/detail/holdout_inflation.hpp>
 
 #include <algorithm>
 #include <cmath>

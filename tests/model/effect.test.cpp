@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 
 #include "support/formulas.hpp"
+#include <sivid/model/graph/graph_range.hpp>
 #include <sivid/model/named_effects.hpp>
 
 #include <sivid/model/effects.hpp>
@@ -92,6 +93,61 @@ TEST_CASE("effects can be joined one after the other") {
     auto const together = with(tank{}, doubled("a"), doubled("b"));
     CHECK(twice.about.constants.size() == 3);
     CHECK(twice.g.size() == together.g.size());
+}
+
+TEST_CASE("an effect that is joined later sees the copies of an input, or is refused") {
+    using namespace sivid::literals;
+    auto const late = effects::input_delay("late", "u", {0_dec, 1_dec});
+    auto const base = with(tank{}, only_within(late, {"S1"}, {1.5}));
+    auto const refused = [&](effect const& e) {
+        CHECK_THROWS_WITH(with(base, {e}), ContainsSubstring("effect '" + e.name + "'") &&
+                                               ContainsSubstring("join both effects at once"));
+        CHECK_NOTHROW(with(tank{}, only_within(late, {"S1"}, {1.5}), e));
+    };
+    refused(doubled("gain"));
+    refused(effects::input_lag("lag", "u", "m/s", {0.1_dec, 1_dec}, 5));
+    refused(only_within(effects::input_delay("later", "u", {0_dec, 1_dec}), {"S2"}, {2}));
+    effect leaks = doubled("leaks"); // it reads the input alone
+    leaks.on_inputs = {};
+    leaks.on_rates = [](effect_scope& m) { m.rate("x") -= m.parameter() * m.named("u"); };
+    refused(leaks);
+    effect both = doubled("both");
+    both.on_inputs = [](effect_scope& m) {
+        for (auto const& u : {"u", "late@S1>=1.5.u"}) m.input(u) *= m.parameter();
+    };
+    CHECK_NOTHROW(with(base, {both}));
+    effect drag = doubled("drag"); // it names no input
+    drag.on_inputs = {};
+    drag.on_rates = [](effect_scope& m) { m.rate("x") -= m.parameter() * m.state("x"); };
+    CHECK_NOTHROW(with(base, {drag}));
+}
+
+TEST_CASE("an effect without parameters is switched like any other") {
+    effect cut;
+    cut.name = "cut";
+    CHECK(cut.may_leave_traces());
+    cut.on_inputs = [](effect_scope& m) {
+        m.input("u") = saturate(m.input("u"), expression(-1), expression(1));
+    };
+    auto const m = with(tank{}, only_within(cut, {"S1"}));
+    for (double const on : {0.0, 1.0}) {
+        graph_range rate(m.g, {m.rate[0]});
+        rate.evaluate({interval(0.0), point_box({0.0}), point_box({0.5}), point_box({3.0, on})});
+        CHECK(rate.value(m.rate[0]).lower() == (on == 1 ? 1 : 3));
+        CHECK(rate.value(m.rate[0]).upper() == (on == 1 ? 1 : 3));
+    }
+}
+
+TEST_CASE("an input and a constant may have one name, an effect has a name of its own") {
+    using namespace sivid::literals;
+    auto base = record_model(tank{});
+    base.about.constants.push_back({"u", "m", literal{interval(1.0), 1.0}});
+    CHECK(finds_as_recorded(base, {doubled("first")}, 0, "u"));
+    CHECK_FALSE(finds_as_recorded(base, {doubled("first"), doubled("second")}, 1, "u"));
+    auto drag = effects::linear_damping("u", "x", {0_dec, 1_dec});
+    CHECK_NOTHROW(with(tank{}, only_within(drag, {"S1"})));
+    drag.only_in = {"S1"}; // its switch would be the input
+    CHECK_THROWS_WITH(with(tank{}, drag), ContainsSubstring("two inputs are called 'u'"));
 }
 
 TEST_CASE("delays are named, and binding refuses them") {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -109,9 +110,10 @@ struct effect {
     /// Whether it begins or ends in the midst of an experiment.
     [[nodiscard]] bool changes_within() const { return begins_later() || ends(); }
     /// Whether it may change something where its parameters are neutral: a saturation does beyond
-    /// its highest limit.
+    /// its highest limit, and one without parameters always acts.
     [[nodiscard]] bool may_leave_traces() const {
-        return std::any_of(parameters.begin(), parameters.end(),
+        return parameters.empty() ||
+               std::any_of(parameters.begin(), parameters.end(),
                            [](effect_parameter const& p) { return nearest(p.neutral) != 0; });
     }
     static constexpr double for_ever = std::numeric_limits<double>::infinity();
@@ -175,6 +177,8 @@ private:
     }
 
     void begin(effect const& e, std::size_t first_parameter);
+    /// Writes down that an effect names an input.
+    void note(std::size_t input) const;
     void remember(std::string const& input, std::size_t k, memory_kind kind);
     void show_late(std::string const& channel, std::size_t k, memory_kind kind);
     /// An input (by index) and its copies, which are behind the same memories.
@@ -189,7 +193,8 @@ private:
     std::vector<expression> states_, constants_, inputs_, rates_, channels_;
     std::vector<effect const*> owners_; ///< of states; nullptr: the model itself
     std::size_t first_parameter_ = 0;
-    effect const* effect_ = nullptr; ///< whose edit it is
+    effect const* effect_ = nullptr;                      ///< whose edit it is
+    mutable std::map<std::size_t, std::string> named_by_; ///< inputs, by the first effect
 };
 
 /// Whether an effect that changes an input is the first to see it: no other one changes it before,
@@ -216,7 +221,9 @@ private:
 ///   rate limits do not act (`acts_in`); states of its own go on, and nothing sees them. One that
 ///   begins or ends within an experiment has its delay, play or rate limit on a copy of the input,
 ///   which the model sees while it acts.
-/// @throws std::invalid_argument when an effect names what the model lacks, or stands twice
+/// @throws std::invalid_argument  when an effect names what the model lacks, stands twice, or has
+///         the name of an input; when the model has a copy of an input, for an effect that was
+///         joined before, and an effect names that input but not the copy
 [[nodiscard]] SIVID_DECL recorded_model with(recorded_model const& base,
                                              std::vector<effect> effects);
 
@@ -230,6 +237,7 @@ template <dynamic_model M, std::same_as<effect>... Effects>
 
 #ifndef SIVID_COMPILED
 #include <sivid/model/impl/effect.ipp>
+#include <sivid/model/impl/effect_scope.ipp>
 #endif
 
 #endif

@@ -50,6 +50,14 @@ TEST_CASE("inputs, constants and sensors are named as the model sees them") {
                 "the sensor p shows p - sensor_lag.p"});
 }
 
+TEST_CASE("an input and a constant of one name are told apart") {
+    auto base = record_model(small_campaign::cart{});
+    base.about.constants.push_back({"u", "N", literal{interval(1.0), 1.0}});
+    base.about.inputs.push_back({"t", "s"});
+    CHECK(formulas_of(base, {effects::input_gain("gain", "u", {-1_dec, 1_dec})}).lines ==
+          lines{"u becomes u * (k_1 + 1)"});
+}
+
 TEST_CASE("what is remembered is said in words") {
     CHECK(changed({effects::input_delay("late", "u", {0_dec, 1_dec})}) ==
           lines{"u becomes u at the time t - tau"});

@@ -129,20 +129,18 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
         for (auto const& u : inputs) h.input(u) += h.input(slope_of(u)) * h.parameter();
         if (timed) h.time() = h.input(shown) + h.input(shown_slope) * h.parameter();
     };
-    // Effects without a parameter, for the sake of their inputs.
+    e.on_rates = [states = base.model.about.states, clock, clock_slope](effect_scope& h) {
+        auto const rate = h.input(clock) + h.input(clock_slope) * h.parameter();
+        for (auto const& s : states) h.rate(s.name) = rate * h.rate(s.name);
+    };
+    // Effects that change nothing, for the sake of their inputs.
     std::vector<std::string> own{clock, clock_slope};
     for (auto const& u : inputs) own.push_back(slope_of(u));
     if (timed) own.insert(own.end(), {shown, shown_slope});
-    auto const states = base.model.about.states;
     for (auto const& name : own) {
         auto& helper = with_clock.emplace_back();
         helper.name = name;
         helper.only_in = everywhere;
-        if (name != clock) continue;
-        helper.on_rates = [states, clock, clock_slope, parameter](effect_scope& h) {
-            auto const rate = h.input(clock) + h.input(clock_slope) * h.constant(parameter);
-            for (auto const& s : states) h.rate(s.name) = rate * h.rate(s.name);
-        };
     }
     auto problem = affected(base, with_clock);
     auto const place = [&](std::string const& name) {

@@ -62,13 +62,13 @@ public:
         seen.order = std::numeric_limits<int>::max();
         auto const& about = base.about;
         seen.on_inputs = [&about](effect_scope& m) {
-            auto const show = [&m](std::string const& name, expression const& value) {
-                (void)m.add_state("seen " + name, "1", 1, expression(0));
-                m.rate("seen " + name) = value;
+            auto const show = [&m](std::string const& what, expression const& value) {
+                (void)m.add_state("seen " + what, "1", 1, expression(0));
+                m.rate("seen " + what) = value;
             };
-            for (auto const& u : about.inputs) show(u.name, m.input(u.name));
-            for (auto const& c : about.constants) show(c.name, m.constant(c.name));
-            show("t", m.time());
+            for (auto const& u : about.inputs) show("input " + u.name, m.input(u.name));
+            for (auto const& c : about.constants) show("constant " + c.name, m.constant(c.name));
+            show("time", m.time());
         };
         auto with_seen = first;
         with_seen.push_back(seen);
@@ -198,9 +198,7 @@ private:
     }
     [[nodiscard]] static std::string text(recorded_model const& m, node_id i,
                                           leaf_names const& names) {
-        constexpr double most = 80; // parts; more are not read anyway
-        return is_short(m.g, i, names, most) ? formula_text(m.g, i, names)
-                                             : "something that is too long to be shown";
+        return readable_formula(m.g, i, names);
     }
     [[nodiscard]] leaf_names names_in(recorded_model const& m) const {
         leaf_names names;
