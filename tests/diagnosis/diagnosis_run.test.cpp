@@ -6,6 +6,7 @@
 
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/verification.hpp>
+#include <sivid/model/effects.hpp>
 
 using namespace sivid;
 
@@ -52,4 +53,26 @@ TEST_CASE("without hold-out data, or without candidates, nothing is added") {
     diagnosis_run nothing;
     judge_by_holdout(nothing, holdout({small_campaign::experiment(2, {})}));
     CHECK_FALSE(nothing.holdout_before);
+}
+
+TEST_CASE("where nobody knows how often hold-out readings had wrapped, the answer is not judged") {
+    using namespace sivid::literals;
+    auto const wraps = effects::sensor_wrap("wraps", "p", "m", {0.85_dec, 0.95_dec}, 0.45);
+    for (double const width : {0.0, 2.0}) { // of the start
+        diagnosis_run run;
+        run.base = small_campaign::problem();
+        run.catalogue = {wraps};
+        screening tried(run.base, run.catalogue);
+        tried.try_one({});
+        tried.try_one({0});
+        run.candidates = tried.candidates();
+        run.answer = 1;
+        run.result.causes.resize(1);
+        auto kept = small_campaign::experiment(2, {});
+        kept.initial[0] = interval(mid(kept.initial[0]), mid(kept.initial[0]) + width);
+        judge_by_holdout(run, holdout({kept}), 1);
+        CHECK(run.holdout_before);
+        CHECK(run.holdout_after.has_value() == (width == 0));
+        CHECK(run.result.causes[0].holdout.has_value() == (width == 0));
+    }
 }

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <string>
 #include <vector>
 
 using namespace sivid;
@@ -90,8 +91,9 @@ struct shaft {
     }
 };
 
+/// @param turn  which the readings are modulo; another one than 2 pi is of no angle
 identification_problem turning_shaft(double at, interval const& start, double late,
-                                     double slow_second = 4) {
+                                     double slow_second = 4, double turn = 2 * std::numbers::pi) {
     identification_problem p{record_model(shaft{}), {{"k"}, {}}, box{interval(0.9, 1.1)}, {}};
     for (int e = 0; e < 2; ++e) {
         double const w = e == 0 ? 4 : slow_second;
@@ -101,7 +103,7 @@ identification_problem turning_shaft(double at, interval const& start, double la
         x.initial = box{start, interval(w)};
         for (int k = 1; k <= 60; ++k) {
             double const t = 0.05 * k;
-            double const a = std::remainder(at + w * std::max(0.0, t - late), 2 * std::numbers::pi);
+            double const a = std::remainder(at + w * std::max(0.0, t - late), turn);
             x.measurements.push_back({t, 0, interval(a - 0.02, a + 0.02)});
             x.measurements.push_back({t, 1, interval(w - 0.03, w + 0.03)});
         }
@@ -192,21 +194,70 @@ TEST_CASE("a saturation that acts in one experiment, or from a time on, leaves t
     check_kept(base, {only_within(sensor, {"E1"})}, {1, 0.2});
 }
 
-TEST_CASE("readings that wrap from many turns on, from a start that is not known, and late") {
+TEST_CASE("readings that wrap from many turns on, and late") {
     double const turn = 2 * std::numbers::pi;
     auto const wrapped = [](identification_problem const& p) {
         return with_wrapped_channels(p, {});
     };
     auto const far = turning_shaft(20 * turn + 0.3, interval(20 * turn + 0.3), 0);
     check_kept(far, wrapped(far), {1, turn});
-    auto const open = turning_shaft(0.3, interval(0.0, 50.0), 0);
-    check_kept(open, wrapped(open), {1, turn}, {0.3});
     for (double const second : {4.0, 0.1}) { // without a leap of its own, too
         auto const late = turning_shaft(0, interval(0.0), 0.1, second);
         auto effects = wrapped(late);
         effects.push_back(effects::sensor_latency("late", {"a"}, {0_dec, 0.5_dec}));
         check_kept(late, effects, {1, turn, 0.1});
     }
+}
+
+TEST_CASE("readings that wrap at what is no full turn, from many of these on") {
+    // What T may be decides how often they had wrapped, not twice the least leap.
+    auto const wraps = [](std::string const& unit, effects::range const& T, double least) {
+        return effects::sensor_wrap("wraps", "a", unit, T, least);
+    };
+    auto counter = [](double at) {
+        auto p = turning_shaft(at, interval(at), 0, 4, 3);
+        p.model.about.channels[0].unit = "count";
+        return p;
+    };
+    auto const near = counter(0.25), far = counter(300.25);
+    check_kept(near, with_wrapped_channels(near, {}), {1, 3});
+    check_kept(far, {wraps("count", {2.99_dec, 3.01_dec}, 1.4)}, {1, 3});
+    CHECK(with_wrapped_channels(far, {}).empty()); // leaps tell T to a half
+    CHECK_THROWS_WITH(affected(far, {wraps("count", {2.9_dec, 3.1_dec}, 1.4)}),
+                      ContainsSubstring("effect 'wraps', experiment 'E0', channel 'a'") &&
+                          ContainsSubstring("cannot be told"));
+    CHECK_NOTHROW(affected(far, {only_within(wraps("count", {2.99_dec, 3.01_dec}, 1.4), {"E1"})}));
+    // So does a half turn in rad.
+    double const half = std::numbers::pi;
+    auto const shaft = turning_shaft(10, interval(10.0), 0, 4, half);
+    check_kept(shaft, {wraps("rad", {3.14_dec, 3.145_dec}, 1.5)}, {1, half});
+}
+
+TEST_CASE("turns that nobody can count are not counted") {
+    double const turn = 2 * std::numbers::pi;
+    auto const e = effects::sensor_wrap("wraps", "a", "rad", {6.28_dec, 6.29_dec}, 3);
+    auto const refused = [&](identification_problem const& p, std::string const& why) {
+        CHECK(with_wrapped_channels(p, {}).empty());
+        CHECK_THROWS_WITH(affected(p, {e}), ContainsSubstring(why));
+    };
+    // Of a start that is known to half a turn or less, more than one number of them may be right.
+    for (double const width : {50.0, 6.2, 3.5}) {
+        auto const open = turning_shaft(0.1, interval(0.0, width), 0);
+        refused(open, "give a narrower start");
+    }
+    auto const narrow = turning_shaft(0.1, interval(-1.0, 1.0), 0);
+    check_kept(narrow, {e}, {1, turn}, {0.1});
+    // Two readings at one time on both sides of a leap: it was not counted at all.
+    auto twice = turning_shaft(0, interval(0.0), 0);
+    auto& readings = twice.experiments[0].measurements;
+    double const at = 0.7853, y = 4 * at; // just before half a turn
+    for (double const noise : {-0.01, 0.01}) {
+        double const a = std::remainder(y + noise, turn);
+        readings.push_back({at, 0, interval(a - 0.02, a + 0.02)});
+    }
+    refused(twice, "on both sides of a leap at 0.7853 s");
+    readings.pop_back();
+    check_kept(twice, {e}, {1, turn});
 }
 
 TEST_CASE("a model's own delay is not scaled in silence") {

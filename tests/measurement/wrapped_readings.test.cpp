@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -57,13 +59,61 @@ TEST_CASE("wraps are counted so that readings follow the angle") {
     }
 }
 
-TEST_CASE("a start that is known beyond the range counts the turns before the first reading") {
+TEST_CASE("turns before the first reading are those that all starts and all T agree on") {
     auto const r = readings({-2.2, -2.1, -2.0});
+    interval const known(turn), about(6.2, 6.4);
+    auto const before = [&](interval const& start, interval const& of) {
+        return wraps_before(r, 0, start, of);
+    };
+    CHECK(before(interval(-2.25), known) == 0);
+    CHECK(before(interval(4.05), known) == 1);
+    CHECK(before(interval(-2.2 - 3 * turn), about) == -3);
+    CHECK(before(interval(4.05), interval(4.5, 10)) == 1);
+    CHECK_FALSE(before(interval(4.05), interval(4.5, 13)));          // none, too
+    CHECK(before(interval(-2.2 + 1000 * turn), known) == 1000);      // many turns away
+    CHECK_FALSE(before(interval(-2.2 + 1000 * turn), about));        // T is not known so well
+    CHECK(before(interval(-2.2, 0.9), known) == 0);                  // all of the start
+    CHECK_FALSE(before(interval(0.9, 1.0), known));                  // about half a turn away
+    CHECK_FALSE(before(interval(-2.2, 4), known));                   // the start is not known
+    CHECK_FALSE(before(interval_traits<interval>::entire(), known)); // at all
+    CHECK_FALSE(before(interval(-2.2), interval(0.0, 13.0)));        // T may be next to nothing
+    CHECK(wraps_before(r, 1, interval(4.05), known) == 0);           // never read
     CHECK(wraps_of(r, 0, turn / 2, 0).values() == std::vector<double>{0});
-    CHECK(wraps_of(r, 0, turn / 2, 0, -2.25).values() == std::vector<double>{0});
-    CHECK(wraps_of(r, 0, turn / 2, 0, 4.05).values() == std::vector<double>{1});
-    CHECK(wraps_of(r, 0, 1.04 * turn / 2, 0, -2.2 - 3 * turn).values() == std::vector<double>{-3});
-    CHECK(wraps_of(r, 1, turn / 2, 0, 4.05).values() == std::vector<double>{0}); // never measured
+    CHECK(wraps_of(r, 0, turn / 2, 0, -3).values() == std::vector<double>{-3});
+    CHECK(wraps_of(r, 1, turn / 2, 0, 1).values() == std::vector<double>{1});
+}
+
+TEST_CASE("leaps tell T within what moves between two readings") {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        support::draws d(seed);
+        auto const r = readings(turning(d, d.uniform(2, 25)).shown);
+        auto const told = turn_of_leaps(r, 0, turn / 2);
+        CAPTURE(seed);
+        bool const leaps = wraps_of(r, 0, turn / 2, 0).values().size() > 1;
+        CHECK(is_empty(told) == !leaps);
+        if (leaps) CHECK((contains(told, turn) && width(told) < 1.5 * turn));
+        CHECK(is_empty(turn_of_leaps(r, 1, turn / 2)));
+    }
+}
+
+TEST_CASE("readings of which nobody can tell the turn are refused") {
+    auto r = readings({2.9, 3.0, 3.1, -3.1, -3.0});
+    CHECK(wraps_of(r, 0, 3, 0).values() == std::vector<double>{0, 1});
+    auto twice = r;
+    twice.push_back({r[3].time, 0, interval(3.12, 3.14)}); // at one time, on both sides
+    CHECK_THROWS_WITH(wraps_of(twice, 0, 3, 0), ContainsSubstring("on both sides of a leap"));
+    twice.back().bound = r[3].bound; // at one time, on one side
+    CHECK(wraps_of(twice, 0, 3, 0).values() == std::vector<double>{0, 1});
+    twice = r;
+    twice[2].time = std::nextafter(r[3].time, 0.0); // no time lies between
+    CHECK_THROWS_WITH(wraps_of(twice, 0, 3, 0), ContainsSubstring("on both sides of a leap"));
+    for (bool const above : {true, false}) {
+        double const inf = std::numeric_limits<double>::infinity();
+        auto half = r;
+        half.push_back({0.35, 0, above ? interval(3.1, inf) : interval(-inf, -3.1)});
+        CHECK_THROWS_WITH(wraps_of(half, 0, 3, 0), ContainsSubstring("at 0.35 s has one bound"));
+        CHECK_NOTHROW(wraps_of(half, 1, 3, 0));
+    }
 }
 
 TEST_CASE("the range within which readings wrap is seen") {

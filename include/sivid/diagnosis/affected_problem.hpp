@@ -55,8 +55,9 @@ inline void start_added_states(identification_problem& problem) {
         if (e.wraps)
             words.push_back(e.wraps->channel + " has wrapped as often as its readings leap by " +
                             nearest_text(e.wraps->least) +
-                            " or more, and is first read within half a turn of where it starts, "
-                            "or, where that is not known so well, as it is");
+                            " or more, moves by less from one to the next, and is first read "
+                            "within half a turn of where it starts (turns of 2 pi or 360 where its "
+                            "unit is rad or deg and the leaps allow it)");
     return words;
 }
 
@@ -64,7 +65,9 @@ inline void start_added_states(identification_problem& problem) {
 /// further unknowns, with the effects' priors; effects that act in some experiments only are
 /// switched on in these.
 ///   A parameter that is feasible for `base` is feasible here with all effects neutral.
-/// @throws std::invalid_argument as `with`
+/// @throws std::invalid_argument  as `with`, and where nobody can tell how often readings had
+///         wrapped (`effect::wraps`): `wraps_before`, for all T of the prior about which they leap,
+///         or for a full turn of the channel's unit where that is one of them, and `wraps_of`
 [[nodiscard]] SIVID_DECL identification_problem affected(identification_problem const& base,
                                                          std::vector<effect> const& effects);
 

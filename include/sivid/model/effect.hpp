@@ -77,8 +77,9 @@ struct effect {
         bool stands = false; ///< beyond it (saturation), else within (dead band)
     };
     std::optional<input_threshold> threshold{};
-    /// Where the effect shows a channel modulo something: an input, its name and ".wraps", counts
-    /// how often readings of the channel in an experiment have leapt back, by at least `least`.
+    /// Where the effect shows a channel modulo its first parameter: an input, its name and
+    /// ".wraps", counts how often readings of the channel in an experiment have leapt back, by at
+    /// least `least`.
     struct wrapped_channel {
         std::string channel;
         double least = 0;

@@ -37,7 +37,7 @@ namespace sivid {
 ///   - `sensor_latency(y:..)`: all are late, by a time in [0, s];
 ///   - `sensor_lag(y:..)`: all follow by a first-order lag, its time constant in [s/100, s];
 ///   - `sensor_saturation(y)`: cut off, at a limit in [s/10, s];
-///   - `sensor_wrap(y)`: shown modulo T in [0, s], leaping back by s/4 or more;
+///   - `sensor_wrap(y)`: shown modulo T in [s/10, s], leaping back by s/4 or more;
 ///   - `sensor_rotation(y:z)`: turned by an angle in [-s, s] rad;
 ///   - `sensor_swap(y:z)`: mixed by k in [-s, s], for k = 1 interchanged;
 ///   - `sensor_lever_arm(y:z:h)`: positions of a point beside, with the heading h, arms in [-s, s];

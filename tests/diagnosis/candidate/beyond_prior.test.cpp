@@ -5,6 +5,11 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/model/effects.hpp>
+
+#include <cstddef>
+#include <vector>
+
 using namespace sivid;
 
 TEST_CASE("only effects whose fit ends at a prior that can be left are widened, each once") {
@@ -26,6 +31,18 @@ TEST_CASE("only effects whose fit ends at a prior that can be left are widened, 
     auto wider = inside; // once is enough
     wider.figures.effects = {planned};
     CHECK(beyond_prior(wider, catalogue, planned) == std::vector<std::size_t>{planned});
+}
+
+TEST_CASE("the prior of a turn stays, since it tells how many turns there were") {
+    using namespace literals;
+    std::vector<effect> catalogue{
+        effects::sensor_wrap("wraps", "p", "m", {0.85_dec, 0.95_dec}, 0.45)};
+    screening tried(small_campaign::problem(), catalogue);
+    tried.try_one({0});
+    auto ends = *tried.find({0});
+    ends.fit.parameters.back() = 0.95;
+    CHECK(beyond_prior(ends, catalogue, 1) == std::vector<std::size_t>{0});
+    CHECK(catalogue.size() == 1);
 }
 
 TEST_CASE("an effect has one index in a catalogue") {

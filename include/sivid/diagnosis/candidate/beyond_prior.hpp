@@ -49,13 +49,14 @@ namespace sivid {
     return false;
 }
 
-/// The effects of a candidate, `widened` ones for those whose fit ends at its prior.
+/// The effects of a candidate, `widened` ones for those whose fit ends at its prior. Those that
+/// count turns stay: the prior of T tells how many there were.
 /// @param catalogue  of the candidate; wider effects are added behind the `planned` ones
 [[nodiscard]] inline std::vector<std::size_t>
 beyond_prior(screened const& s, std::vector<effect>& catalogue, std::size_t planned) {
     auto effects = s.figures.effects;
     for (auto& e : effects) {
-        if (e >= planned) continue;
+        if (e >= planned || catalogue[e].wraps) continue;
         auto wider = widened(catalogue[e]);
         if (!ends_at_prior(s, catalogue[e], wider)) continue;
         e = index_of_effect(catalogue, std::move(wider));

@@ -5,7 +5,13 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/measurement/wrapped_readings.hpp>
 
-#include <optional>
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sivid {
 
@@ -28,19 +34,49 @@ inline signal switch_of(effect const& e, experiment const& x) {
     if (until <= x.begin) on = 0;
     return analytic_signal::from([on](auto const&) { return on; });
 }
+/// What T of an effect that wraps may be: those of its prior about which readings leap.
+inline interval turn_of(identification_problem const& base, effect const& e) {
+    auto const prior =
+        e.parameters.empty() ? interval_traits<interval>::entire() : e.parameters[0].prior();
+    auto const y = index_of(base.model.about.channels, e.wraps->channel, "channel");
+    auto leaps = interval_traits<interval>::empty();
+    for (auto const& x : base.experiments)
+        leaps = hull(leaps, turn_of_leaps(x.measurements, y, e.wraps->least));
+    auto const both = interval_traits<interval>::intersect(prior, leaps);
+    return is_empty(both) ? prior : both;
+}
 /// How often a channel has wrapped in an experiment.
-inline signal wraps_in(experiment const& x, recorded_model const& model,
-                       effect::wrapped_channel const& w) {
-    auto const y = index_of(model.about.channels, w.channel, "channel");
-    auto const& shown = model.g[model.observe[y]];
-    double const turn = full_turn(model.about.channels[y].unit);
-    std::optional<double> start; // of a state that the channel shows as it is
-    auto const i = static_cast<std::size_t>(shown.index);
-    bool const own = shown.op == operation::state && i < x.initial.size();
-    if (own && width(x.initial[i]) < (turn > 0 ? turn : 2 * w.least)) start = mid(x.initial[i]);
-    auto count = wraps_of(x.measurements, y, w.least, x.begin, start, turn);
-    if (count.values().size() > 1) return count;
-    return analytic_signal::from([n = count.values()[0]](auto const&) { return n; });
+/// @param turn  `turn_of` the effect
+inline signal wraps_in(experiment const& x, identification_problem const& base,
+                       std::vector<interval> const& constants, effect const& e,
+                       interval const& turn) {
+    auto const& about = base.model.about;
+    auto const& w = *e.wraps;
+    auto const y = index_of(about.channels, w.channel, "channel");
+    auto const fail = [&](std::string const& what) {
+        throw std::invalid_argument("effect '" + e.name + "', experiment '" + x.name +
+                                    "', channel '" + w.channel + "': " + what);
+    };
+    auto const held = [](double n) {
+        return analytic_signal::from([n](auto const&) { return n; });
+    };
+    if (!e.acts_in(x.name)) return held(0);
+    auto const start =
+        value_at(base.model, base.model.observe[y], x.begin, x.initial, constants, x.inputs);
+    auto first = wraps_before(x.measurements, y, start, turn);
+    double const full = full_turn(about.channels[y].unit);
+    if (!first && full > 0 && contains(turn, full))
+        first = wraps_before(x.measurements, y, start, interval(full));
+    if (!first)
+        fail("how often it had wrapped when it is first read cannot be told from where it starts; "
+             "give a narrower start, or a narrower prior of T, or follow the turns");
+    try {
+        auto count = wraps_of(x.measurements, y, w.least, x.begin, *first);
+        if (count.values().size() > 1) return count;
+    } catch (std::invalid_argument const& error) {
+        fail(error.what());
+    }
+    return held(*first);
 }
 } // namespace diagnosis_detail
 
@@ -48,6 +84,10 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
                                            std::vector<effect> const& effects) {
     identification_problem result{with(base.model, effects), base.choice, {}, base.experiments};
     auto const& inputs = result.model.about.inputs;
+    auto const constants = constant_ranges(base.model, base.choice, base.prior);
+    std::map<std::string, interval> turns; // by effect
+    for (auto const& e : effects)
+        if (e.wraps) turns[e.name] = diagnosis_detail::turn_of(base, e);
     for (auto& x : result.experiments) {
         for (auto k = base.model.about.inputs.size(); k < inputs.size(); ++k) {
             auto const& copies = result.model.input_copies;
@@ -62,10 +102,13 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
                     return e.name + what == inputs[k].name;
                 });
             };
-            auto const own = of("");
-            x.inputs.push_back(own == effects.end()
-                                   ? diagnosis_detail::wraps_in(x, base.model, *of(".wraps")->wraps)
-                                   : diagnosis_detail::switch_of(*own, x));
+            if (auto const own = of(""); own != effects.end()) {
+                x.inputs.push_back(diagnosis_detail::switch_of(*own, x));
+            } else {
+                auto const& e = *of(".wraps");
+                x.inputs.push_back(
+                    diagnosis_detail::wraps_in(x, base, constants, e, turns.at(e.name)));
+            }
         }
     }
     std::vector<interval> prior(base.prior.begin(), base.prior.end());

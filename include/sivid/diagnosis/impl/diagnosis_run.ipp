@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace sivid {
@@ -23,12 +24,22 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
     auto const elapsed = [begin] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
-    // Whether effects of some scenarios act in the hold-out ones nobody knows.
+    // Whether effects of some scenarios act in the hold-out ones nobody knows, and perhaps not how
+    // often their readings had wrapped.
     auto const partial = [](effect const& e) { return !e.only_in.empty(); };
+    auto const poses = [&](screened const& candidate) {
+        try {
+            (void)data.judged_by(candidate, run.base, run.catalogue);
+            return true;
+        } catch (std::invalid_argument const&) {
+            return false;
+        }
+    };
     bool const answered =
         !run.result.causes.empty() &&
         std::ranges::none_of(holdout::effects_of(run.candidates[run.answer], run.catalogue),
-                             partial);
+                             partial) &&
+        poses(run.candidates[run.answer]);
     bool const one_by_one = test.workers.threads <= 1;
     auto const judge = [&](screened const& candidate, verified_inflation const& bound,
                            explained_hull const& explaining, double share) {

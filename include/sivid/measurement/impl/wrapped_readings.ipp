@@ -4,9 +4,12 @@
 
 #include <sivid/measurement/wrapped_readings.hpp>
 
+#include <sivid/number/text/nearest_text.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace sivid {
@@ -35,26 +38,58 @@ SIVID_DECL std::vector<double> steps_of(record const& samples, std::size_t chann
 }
 
 SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel, double least,
-                                   double begin, std::optional<double> start, double turn) {
-    if (!(turn > 0)) turn = 2 * least;
+                                   double begin, double first) {
+    for (auto const& m : samples)
+        if (m.channel == channel &&
+            std::isfinite(m.bound.lower()) != std::isfinite(m.bound.upper()))
+            throw std::invalid_argument("the reading at " + nearest_text(m.time) +
+                                        " s has one bound, so that its turn cannot be told: state "
+                                        "both, or leave it out");
     auto const own = measurement_detail::readings_of(samples, channel);
     auto const steps = measurement_detail::steps_between(own);
-    bool const known = start && !own.empty() && std::isfinite(*start);
-    double const first = known ? std::round((*start - mid(own[0].bound)) / turn) : 0;
     std::vector<double> times{begin}, counts{first};
     for (std::size_t k = 0; k < steps.size(); ++k) {
         if (!(std::abs(steps[k]) >= least)) continue;
-        double const at = std::midpoint(own[k].time, own[k + 1].time);
-        if (!(at > times.back())) continue; // two readings at one time
+        double const before = own[k].time, after = own[k + 1].time;
+        double const at = std::midpoint(before, after);
+        if (!(before < at && at < after))
+            throw std::invalid_argument("there are readings on both sides of a leap at " +
+                                        nearest_text(after) +
+                                        " s: leave those on one side out, or follow the turns");
         times.push_back(at);
         counts.push_back(counts.back() - std::copysign(1.0, steps[k]));
     }
     return {std::move(times), std::move(counts), interpolation::hold};
 }
 
+SIVID_DECL interval turn_of_leaps(record const& samples, std::size_t channel, double least) {
+    using traits = interval_traits<interval>;
+    auto const own = measurement_detail::readings_of(samples, channel);
+    auto turn = traits::empty();
+    for (std::size_t k = 1; k < own.size(); ++k) {
+        if (!(std::abs(mid(own[k].bound) - mid(own[k - 1].bound)) >= least)) continue;
+        auto const leap = traits::abs(traits::sub(own[k].bound, own[k - 1].bound));
+        turn = hull(turn, traits::add(leap, traits::bounds(-least, least)));
+    }
+    return turn;
+}
+
+SIVID_DECL std::optional<double> wraps_before(record const& samples, std::size_t channel,
+                                              interval const& start, interval const& turn) {
+    using traits = interval_traits<interval>;
+    auto const own = measurement_detail::readings_of(samples, channel);
+    if (own.empty()) return 0;
+    if (!(turn.lower() > 0)) return std::nullopt;
+    bool undefined = false;
+    auto const turns = traits::add(traits::div(traits::sub(start, own[0].bound), turn, undefined),
+                                   traits::bounds(-0.5, 0.5));
+    double const least = std::ceil(turns.lower()), most = std::floor(turns.upper());
+    return least == most ? std::optional{least} : std::nullopt;
+}
+
 SIVID_DECL double wrapping_range(std::vector<record> const& records, std::size_t channel,
                                  double turn) {
-    constexpr double least = 0.6, ordinary = 1.0 / 3; // of the largest step
+    constexpr double least = 0.6, ordinary = 1.0 / 3; // of the largest step, of a leap
     std::vector<std::vector<double>> all;
     std::vector<double> sizes;
     for (auto const& r : records) {
@@ -87,8 +122,8 @@ SIVID_DECL double wrapping_range(std::vector<record> const& records, std::size_t
     // What leaps more often than it moves on is no angle that is followed.
     if (lasting == 0 || 4 * leaps > sizes.size()) return 0;
     auto const first = sizes.size() - leaps;
-    if (first > 0 && sizes[first - 1] >= ordinary * most) return 0;
     double const range = sizes[first + leaps / 2];
+    if (first > 0 && sizes[first - 1] >= ordinary * range) return 0;
     if (turn > 0) return std::abs(range - turn) < turn / 4 ? range : 0;
     bool const one_way = lasting > 1 && std::abs(net) == lasting;
     return farthest > 1 || one_way ? range : 0;

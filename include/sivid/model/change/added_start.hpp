@@ -33,6 +33,25 @@ namespace sivid {
     return range.value(formula.value);
 }
 
+/// Encloses a node of a model at one time, over ranges of what it depends on.
+/// @param inputs  those of the model
+/// @returns  the whole line where it may be undefined
+/// @throws std::domain_error  where an input is not defined
+[[nodiscard]] inline interval value_at(recorded_model const& model, node_id node, double time,
+                                       box const& states, std::vector<interval> const& constants,
+                                       std::vector<signal> const& inputs) {
+    leaf_ranges at{interval(time), states, box(constants), box(inputs.size())};
+    auto const seen = operands_of(model.g, {node});
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+        auto const& n = model.g.nodes()[k];
+        auto const i = static_cast<std::size_t>(n.index);
+        if (seen[k] && n.op == operation::input) at.inputs[i] = input_at(inputs[i], time);
+    }
+    graph_range range(model.g, {node});
+    range.evaluate(at);
+    return range.undefined(node) ? interval_traits<interval>::entire() : range.value(node);
+}
+
 /// Encloses the value at which a state that was added to a model begins, over ranges of what it
 /// depends on.
 /// @param inputs  those of the model
@@ -41,19 +60,11 @@ namespace sivid {
                                        std::vector<interval> const& constants,
                                        std::vector<signal> const& inputs, double begin,
                                        box const& states = {}) {
-    leaf_ranges at{interval(begin), states, box(constants), box(inputs.size())};
-    auto const seen = operands_of(model.g, {added.at_begin});
-    for (std::size_t k = 0; k < seen.size(); ++k) {
-        auto const& n = model.g.nodes()[k];
-        auto const i = static_cast<std::size_t>(n.index);
-        if (seen[k] && n.op == operation::input) at.inputs[i] = input_at(inputs[i], begin);
-    }
-    graph_range range(model.g, {added.at_begin});
-    range.evaluate(at);
-    if (range.undefined(added.at_begin) || !std::isfinite(mag(range.value(added.at_begin))))
+    auto const value = value_at(model, added.at_begin, begin, states, constants, inputs);
+    if (!std::isfinite(mag(value)))
         throw std::domain_error("the initial value of state '" +
                                 model.about.states[added.state].name + "' is not defined");
-    return range.value(added.at_begin);
+    return value;
 }
 
 } // namespace sivid

@@ -144,8 +144,8 @@ SIVID_DECL effect sensor_fault(std::string const& name, model_description const*
     }
     if (f.kind == "sensor_wrap") {
         f.need(1);
-        return kinds::sensor_wrap(name, channels[0], unit_of(channels[0]),
-                                  {0_dec, detail::kept(f.size)}, *parse_nearest(f.size) / 4);
+        return kinds::sensor_wrap(name, channels[0], unit_of(channels[0]), f.from("e-1"),
+                                  *parse_nearest(f.size) / 4);
     }
     bool const arm = f.kind == "sensor_lever_arm", beside = f.kind == "sensor_velocity_arm";
     f.need(arm || beside ? 3 : 2);

@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/model/effects.hpp>
 #include <sivid/model/named_effects.hpp>
 
 #include <cmath>
@@ -64,10 +65,13 @@ TEST_CASE("readings that wrap are those of the model with the effect, in each ex
             CHECK(std::abs(mid(wrapped.bound) + 0.9 * turns - mid(real.bound)) < 1e-9);
         }
     }
-    // An experiment that begins two turns away begins with them.
+    // An experiment that begins two turns away begins with them, if T is known so well.
+    using namespace sivid::literals;
     auto far = problem;
     far.experiments[0].initial[0] = interval(1.8);
-    auto const posed = affected(far, all);
+    CHECK(with_wrapped_channels(far, {}).empty());
+    auto const posed =
+        affected(far, {effects::sensor_wrap("known", "p", "m", {0.85_dec, 0.95_dec}, 0.45)});
     auto const& first = posed.experiments[0].inputs.back();
     REQUIRE(std::holds_alternative<sampled_signal>(first));
     CHECK(std::get<sampled_signal>(first).values()[0] == 2);

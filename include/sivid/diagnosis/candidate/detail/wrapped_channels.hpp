@@ -11,7 +11,8 @@
 namespace sivid {
 
 /// A catalogue, and an effect (`sensor_wrap`) for each channel whose readings wrap and that none of
-/// it wraps: what leaps so is in the data, whatever else may be wrong.
+/// it wraps: what leaps so is in the data, whatever else may be wrong. There is none where turns
+/// cannot be counted (`affected`).
 [[nodiscard]] SIVID_DECL std::vector<effect>
 with_wrapped_channels(identification_problem const& problem, std::vector<effect> catalogue);
 

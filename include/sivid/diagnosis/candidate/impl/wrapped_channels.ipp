@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/measurement/wrapped_readings.hpp>
 #include <sivid/model/named_effects.hpp>
 
@@ -50,9 +51,10 @@ SIVID_DECL std::vector<effect> with_wrapped_channels(identification_problem cons
         auto const size = diagnosis_detail::two_digits_above(2 * range);
         try {
             auto fault = sensor_fault("sensor_wrap(" + channel.name + ")~" + size, &about);
-            (void)with(problem.model, {fault});
+            (void)affected(problem, {fault});
             catalogue.push_back(std::move(fault));
-        } catch (std::invalid_argument const&) { // its name cannot stand in one of a fault
+        } catch (std::logic_error const&) {
+            // Its name cannot stand in one of a fault, or its turns cannot be counted.
         }
     }
     return catalogue;
