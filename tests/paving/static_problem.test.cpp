@@ -6,6 +6,22 @@
 
 using namespace sivid;
 
+namespace {
+
+struct named_twice : static_models::ring {
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"p", "1", 1_dec}, {"p", "1", 1_dec}});
+    }();
+};
+
+} // namespace
+
+TEST_CASE("constants of a static model have names of their own") {
+    CHECK_THROWS_WITH(record_static_model<named_twice>(),
+                      ContainsSubstring("two constants are called 'p'"));
+}
+
 TEST_CASE("a static model is recorded without states and inputs") {
     auto const m = record_static_model<static_models::mixed>();
     CHECK(m.about.name == "mixed");
@@ -32,5 +48,7 @@ TEST_CASE("what does not fit is named") {
     spoilt([](auto& p) { p.measurements[0].channel = 1; }, "unknown channel");
     spoilt([&](auto& p) { p.measurements[0].time = inf; }, "no finite time");
     spoilt([](auto& p) { p.measurements[0].bound = traits::empty(); }, "empty measurement");
+    spoilt([&](auto& p) { p.measurements[0].bound = interval(inf, inf); }, "empty measurement");
+    spoilt([](auto& p) { p.choice.fixed["q"] = interval(1.0); }, "'q' is unknown and has a fixed");
     spoilt([](auto& p) { p.model.about.states.push_back({"x", "", 1}); }, "states");
 }

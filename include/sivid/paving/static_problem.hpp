@@ -39,22 +39,15 @@ concept static_model = requires {
 
 /// Runs the functor once on the recording scalar.
 /// @guarantee  evaluating the graph with a sound interval type encloses the functor's real value
+/// @throws std::invalid_argument  where two channels or constants have one name
 template <static_model M>
 [[nodiscard]] recorded_model record_static_model(M const& model = {}) {
     recorded_model result;
-    auto& about = result.about;
-    about.name = std::string(M::name);
-    for (auto const& y : M::channels) {
-        about.channels.push_back({std::string(y.name), std::string(y.unit)});
-    }
+    result.about =
+        model_detail::described(std::string_view(M::name), {}, {}, M::channels, M::constants);
     auto& g = result.g;
     constants_of<M, expression> c;
-    for (std::size_t i = 0; i < c.size(); ++i) {
-        auto const& own = M::constants[i];
-        about.constants.push_back({std::string(own.name), std::string(own.unit),
-                                   literal{enclose(own.nominal), nearest(own.nominal)}});
-        c[i] = expression(g, g.leaf(operation::constant, i));
-    }
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = expression(g, g.leaf(operation::constant, i));
     expression const t(g, g.leaf(operation::time, 0));
     for (auto const& e : model.observe(t, c)) result.observe.push_back(e.in(g));
     if constexpr (requires { model.derived(c); }) {
@@ -84,6 +77,9 @@ struct static_problem {
         }
         if (choice.unknown.empty()) fail("no unknown parameter");
         if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
+        for (auto const& name : choice.unknown)
+            if (choice.fixed.count(name) != 0)
+                fail("'" + name + "' is unknown and has a fixed value; leave one of them out");
         if (is_empty(prior)) fail("the prior is empty");
         for (auto const& side : prior) {
             if (!std::isfinite(mag(side)) || !std::isfinite(width(side))) {
@@ -94,7 +90,8 @@ struct static_problem {
         for (auto const& m : measurements) {
             if (m.channel >= model.about.channels.size()) fail("unknown channel");
             if (!std::isfinite(m.time)) fail("a measurement at no finite time");
-            if (is_empty(m.bound)) fail("an empty measurement");
+            if (is_empty(m.bound) || !std::isfinite(mig(m.bound))) // beyond all doubles
+                fail("an empty measurement");
         }
     }
 };
