@@ -186,6 +186,21 @@ TEST_CASE("a drop-out does what the mapping says") {
     CHECK(split.stretches.size() == 2);
 }
 
+TEST_CASE("the longest gap is in seconds, whatever the unit of the time") {
+    using entry = std::pair<std::string, std::string>; // a unit, one and a half of it
+    for (auto const& [unit, gap] :
+         {entry{"ns", "1.5e-9"}, entry{"us", "1.5e-6"}, entry{"ms", "0.0015"}, entry{"s", "1.5"},
+          entry{"min", "90"}, entry{"h", "5400"}}) {
+        CAPTURE(unit);
+        auto const mapping = replaced(replaced(with(R"("gap": "split")"), "0.05", gap),
+                                      R"("ms", "counter_bits": 16)", "\"" + unit + "\"");
+        auto const c = clean(mapping, "0,1,2\n1,1,2\n2.5,1,2\n4.1,1,2\n5.1,1,2\n");
+        REQUIRE(c.stretches.size() == 2);
+        CHECK(c.kept(0) == lines{1, 2, 3});
+        CHECK(c.kept(1) == lines{4, 5});
+    }
+}
+
 TEST_CASE("logs in seconds, with other separators and fields that do not matter") {
     auto mapping = replaced(
         serial_mapping, R"("fields": ["t_ms", "pwm", "enc"])",

@@ -59,7 +59,7 @@ TEST_CASE("whole numbers are recognised") {
 }
 
 TEST_CASE("time stamps go on, through the end of the counter too") {
-    time_stamps const t{16, dec("50")};
+    time_stamps const t{16, dec("0.05"), dec("1e-3")};
     CHECK(t.wraps());
     CHECK(t.possible(dec("65535")));
     CHECK_FALSE(t.possible(dec("65536")));
@@ -71,7 +71,7 @@ TEST_CASE("time stamps go on, through the end of the counter too") {
     CHECK(t.goes_on(dec("65530"), dec("4")));
     CHECK_FALSE(t.goes_on(dec("10"), dec("9")));
     CHECK(*t.forward(dec("10"), dec("9")) == dec("65535"));
-    time_stamps const seconds{std::nullopt, dec("0.5")};
+    time_stamps const seconds{std::nullopt, dec("0.5"), dec("1")};
     CHECK_FALSE(seconds.wraps());
     CHECK(seconds.possible(dec("-3.5")));
     CHECK(seconds.goes_on(dec("1"), dec("1.5")));

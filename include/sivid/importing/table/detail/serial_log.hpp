@@ -56,7 +56,7 @@ public:
     serial_log_reader(scenario_mapping const& s, import_protocol& protocol)
         : s_{s},
           protocol_{protocol},
-          stamps_{s.time.counter_bits, ticks(s.form.longest_gap, s.time.to_seconds.factor_lower)} {}
+          stamps_{s.time.counter_bits, s.form.longest_gap, s.time.to_seconds.factor_lower} {}
 
     /// The stretches between restarts (and gaps, if the mapping splits there).
     [[nodiscard]] std::vector<recorded_table> read(std::string_view text) {
@@ -84,13 +84,6 @@ private:
         std::vector<std::optional<exact_decimal>> cells;
     };
 
-    static exact_decimal ticks(exact_decimal const& seconds, exact_decimal const& tick) {
-        // tick is 60 or a power of ten: exact up to 30 digits, and rounded up beyond.
-        if (tick == *exact_decimal::parse("60")) return seconds.divided_by(60, 30).second;
-        std::size_t per_second = 1;
-        while (tick.times(per_second) < *exact_decimal::parse("1")) per_second *= 10;
-        return seconds.times(per_second);
-    }
     void drop(std::size_t number, char const* why) {
         protocol_.add(kind::dropped, s_.name, "", why, number);
     }

@@ -70,9 +70,10 @@ private:
 class time_stamps {
 public:
     /// @param bits  of the counter; nothing: it never wraps
-    /// @param longest  the longest usual step, in ticks
-    time_stamps(std::optional<unsigned> bits, exact_decimal longest)
-        : longest_{std::move(longest)} {
+    /// @param longest  the longest usual step [s]
+    /// @param tick  of the clock [s]
+    time_stamps(std::optional<unsigned> bits, exact_decimal longest, exact_decimal tick)
+        : longest_{std::move(longest)}, tick_{std::move(tick)} {
         if (bits) range_ = exact_decimal::parse(std::to_string(std::uint64_t{1} << *bits));
     }
 
@@ -92,13 +93,13 @@ public:
     /// Whether b follows a by a usual step.
     [[nodiscard]] bool goes_on(exact_decimal const& a, exact_decimal const& b) const {
         auto const way = forward(a, b);
-        return way && way->is_positive() && !(longest_ < *way);
+        return way && way->is_positive() && !(longest_ < way->times(tick_));
     }
     [[nodiscard]] bool wraps() const { return range_.has_value(); }
 
 private:
     std::optional<exact_decimal> range_;
-    exact_decimal longest_;
+    exact_decimal longest_, tick_;
 };
 
 } // namespace sivid
