@@ -70,6 +70,7 @@ struct source_form {
     char decimal = '.';
     std::vector<std::string> missing; ///< cells that mean "no reading", beside empty ones
     std::size_t skip_lines = 0;       ///< csv: before the heading
+    std::optional<bool> heading;      ///< csv: whether there is one; nothing: not stated
     std::size_t skip_after_heading = 0;
     std::vector<std::string> fields; ///< serial: what a line holds; "_" is not looked at
     exact_decimal longest_gap;       ///< serial: the longest usual step of the time [s]

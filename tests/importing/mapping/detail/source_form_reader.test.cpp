@@ -22,10 +22,13 @@ TEST_CASE("the form of a table") {
     CHECK(f.missing == std::vector<std::string>{"-"});
     CHECK(f.skip_lines == 2);
     CHECK(f.skip_after_heading == 1);
+    CHECK_FALSE(f.heading);
+    CHECK(read_source_form(entry(R"({"heading": false, "skip_lines": 2})")).heading == false);
     for (auto const* bad :
          {R"({"kind": "xls"})", R"({"kind": "csv", "separator": "x"})",
           R"({"kind": "csv", "decimal": ","})", R"({"kind": "csv", "decimal": "'"})",
-          R"({"kind": "csv", "fields": ["t"]})", R"({"kind": "csv", "skip_lines": -1})"})
+          R"({"kind": "csv", "fields": ["t"]})", R"({"kind": "csv", "skip_lines": -1})",
+          R"({"heading": "no"})", R"({"heading": false, "skip_after_heading": 1})"})
         CHECK_THROWS_AS(read_source_form(entry(bad)), input_error);
 }
 

@@ -62,6 +62,7 @@ TEST_CASE("any separator, decimal comma, preamble, units line, quotes, text in o
     CHECK(table.rows[1].time == dec("0.0005"));
     CHECK_FALSE(table.rows[1].cells[1]);
     CHECK(noted(protocol, "skipped") == std::vector<std::size_t>{1, 3});
+    CHECK(noted(protocol, "blank or comment") == std::vector<std::size_t>{4, 5});
 }
 
 TEST_CASE("tabs and blanks") {
@@ -70,6 +71,93 @@ TEST_CASE("tabs and blanks") {
     CHECK(read(tabs, "time\tpump\tlevel\n0\t1\t\n1\t2\t3\n", protocol).rows.size() == 2);
     auto const blanks = replaced(csv_mapping, R"("csv" })", R"("csv", "separator": " " })");
     CHECK(read(blanks, "time pump   level\n  0  1 2\n  1\t2 3\n", protocol).rows.size() == 2);
+}
+
+namespace {
+
+/// The small mapping of a table without times, whose columns may be named by their numbers.
+std::string sampled(std::string const& form, bool by_number = false) {
+    auto text = replaced(csv_mapping, R"({ "kind": "csv" })", form);
+    text = replaced(text, R"({ "column": "time", "unit": "ms", "offset": 0 })",
+                    R"({ "sample_time": 1 })");
+    if (!by_number) return text;
+    return replaced(replaced(text, "\"pump\"", "1"), "\"level\"", "2");
+}
+std::string const one_column = replaced(sampled("{}"), R"("u": { "column": "pump" })", "");
+
+} // namespace
+
+TEST_CASE("a row of blanks keeps its place") {
+    auto const tabs = sampled(R"({ "separator": "\t" })");
+    for (auto const& [mapping, text] :
+         {std::pair{tabs, "pump\tlevel\n1\t10\n2\t11\n\t\n4\t13\n"},
+          {sampled(R"({ "separator": ";" })"), "pump;level\n1;10\n2;11\n;\n4;13\n"},
+          {one_column, "level\n10\n11\n\n13\n"},
+          {replaced(one_column, "{}", R"({ "separator": " " })"), "level\n10\n11\n  \n13\n"}}) {
+        CAPTURE(text);
+        import_protocol protocol;
+        auto const table = read(mapping, text, protocol);
+        REQUIRE(table.rows.size() == 4);
+        CHECK_FALSE(table.rows[2].cells.back());
+        CHECK(table.rows[3].time == dec("3"));
+        CHECK(*table.rows[3].cells.back() == dec("13"));
+        CHECK(protocol.notes().empty());
+    }
+    CHECK_THAT(refused(tabs, "pump\tlevel\n1\t10\n\t\t\n"),
+               ContainsSubstring("3 cells in a table of 2"));
+    auto const timed = replaced(csv_mapping, R"("csv" })", R"("csv", "separator": "\t" })");
+    CHECK_THAT(refused(timed, "time\tpump\tlevel\n0\t1\t2\n\t\t\n"),
+               ContainsSubstring("line 3, column 1 (time): the time is missing"));
+}
+
+TEST_CASE(
+    "lines that are no rows are noted, and refused between rows that only their number times") {
+    auto const mapping = sampled("{}");
+    for (std::string const line : {"", "  ", "# 2,11", "#N/A,11"}) {
+        CAPTURE(line);
+        CHECK_THAT(refused(mapping, "pump,level\n1,10\n" + line + "\n3,12\n"),
+                   ContainsSubstring("a.csv: line 3: a blank line or a comment above a row"));
+        import_protocol protocol;
+        auto const text = "# of today\n\npump,level\n1,10\n2,11\n" + line + "\n";
+        CHECK(read(mapping, text, protocol).rows.size() == 2);
+        CHECK(noted(protocol, "blank or comment") == std::vector<std::size_t>{1, 2, 6});
+        auto const timed =
+            read(csv_mapping, "time,pump,level\n0,1,2\n" + line + "\n1,1,2\n", protocol);
+        CHECK(timed.rows.size() == 2);
+    }
+    // What says that there is no reading makes no comment of a row.
+    import_protocol protocol;
+    auto const table =
+        read(sampled(R"({ "missing": ["#N/A"] })"), "pump,level\n1,10\n#N/A,11\n3,12\n", protocol);
+    CHECK(table.rows.size() == 3);
+}
+
+TEST_CASE("a first row of numbers is no heading unless the mapping says so") {
+    std::string const text = "1,10\n2,11\n3,12\n";
+    auto const doubt =
+        "line 1: the line of the headings may be a row: its mapped cells are numbers; "
+        "state \"heading\"";
+    CHECK_THAT(refused(sampled("{}", true), text), ContainsSubstring(doubt));
+    CHECK_THAT(refused(sampled("{}", true), "1,\n2,11\n"), ContainsSubstring(doubt));
+    CHECK_THAT(refused(replaced(sampled("{}", true), R"("sample_time": 1)",
+                                R"("column": 1, "unit": "s", "offset": "first")"),
+                       text),
+               ContainsSubstring(doubt));
+    import_protocol protocol;
+    auto const none = sampled(R"({ "heading": false })", true);
+    auto const rows = read(none, "# pump,level\n" + text, protocol).rows;
+    REQUIRE(rows.size() == 3);
+    CHECK(*rows[0].cells[1] == dec("10"));
+    CHECK(noted(protocol, "blank or comment") == std::vector<std::size_t>{1});
+    CHECK_THAT(refused(none, "\n" + text), ContainsSubstring("line 1: a blank line"));
+    CHECK_THAT(refused(sampled(R"({ "heading": false })"), text),
+               ContainsSubstring("has no column 'pump'; it has: '1', '2'"));
+    // Numbers may head columns where the mapping says so, by their names too.
+    CHECK(read(sampled(R"({ "heading": true })", true), text, protocol).rows.size() == 2);
+    auto const named =
+        replaced(replaced(sampled("{}"), "\"pump\"", "\"1\""), "\"level\"", "\"10\"");
+    CHECK(read(named, text, protocol).rows.size() == 2);
+    CHECK(read(sampled("{}", true), "pump,level\n" + text, protocol).rows.size() == 3);
 }
 
 TEST_CASE("a defect in a table is named with file, line, column and remedy") {

@@ -29,8 +29,8 @@ namespace sivid {
         entry.allow_only({"kind", "separator", "decimal", "missing", "fields", "longest_gap", "gap",
                           "restart", "check_sum"});
     else
-        entry.allow_only(
-            {"kind", "separator", "decimal", "missing", "skip_lines", "skip_after_heading"});
+        entry.allow_only({"kind", "separator", "decimal", "missing", "skip_lines", "heading",
+                          "skip_after_heading"});
     if (auto const* s = entry.find("separator"))
         form.separator =
             character(*s, ",;\t |:", "write \",\", \";\", \"\\t\", \"|\", \":\" or \" \" (blanks)");
@@ -45,6 +45,10 @@ namespace sivid {
         if (auto const* n = entry.find("skip_lines")) form.skip_lines = whole(*n, 0, 1'000'000);
         if (auto const* n = entry.find("skip_after_heading"))
             form.skip_after_heading = whole(*n, 0, 1'000'000);
+        if (auto const* h = entry.find("heading")) form.heading = h->boolean();
+        if (form.heading == false && form.skip_after_heading > 0)
+            entry.at("skip_after_heading")
+                .fail("there is no heading", "count these lines under \"skip_lines\"");
         return form;
     }
     for (auto const& f : entry.at("fields").elements()) {

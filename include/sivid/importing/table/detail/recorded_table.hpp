@@ -106,9 +106,13 @@ private:
     recorded_table table_;
 };
 
-/// Reads a table with headings, in the form and with the columns that the mapping states. A table
-/// is refused where a log would be cleaned.
-/// @throws input_error  for a ragged line, a cell that is no number, a time that does not increase
+/// Reads a table in the form and with the columns that the mapping states. A table is refused where
+/// a log would be cleaned.
+///   Blanks alone are a row without a reading where they make as many cells as a row has, and where
+/// there is one column. Other blank lines and comments are noted; without a column of times they
+/// may stand above and below the rows only, since the rows after one that is lost would be early.
+/// @throws input_error  for a ragged line, a cell that is no number, a time that does not increase,
+///                      a first line of which nobody knows whether it is a heading
 [[nodiscard]] inline recorded_table
 read_recorded_table(scenario_mapping const& s, std::string_view text, import_protocol& protocol) {
     using kind = import_protocol::kind;
@@ -130,7 +134,31 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
     recorded_rows rows{s, [&](std::size_t line, bool, auto const& problem, auto const& remedy) {
                            fail(line, time_column ? *time_column + 1 : 0, problem, remedy);
                        }};
-    std::size_t skip = s.form.skip_lines;
+    auto const is_missing = [&](std::string const& cell) {
+        auto const& words = s.form.missing;
+        return cell.empty() || std::find(words.begin(), words.end(), cell) != words.end();
+    };
+    auto const heads = [&](std::size_t line, std::vector<std::string> const& cells) {
+        headings = cells;
+        if (s.form.heading == false)
+            for (std::size_t i = 0; i < cells.size(); ++i) headings[i] = std::to_string(i + 1);
+        auto references = columns_of(s);
+        for (auto const& c : references) columns.push_back(find_column(c, headings, file));
+        if (!s.time.sample_time) {
+            references.push_back(s.time.column);
+            time_column = find_column(s.time.column, headings, file);
+        }
+        // What is found by its name is a heading.
+        if (!s.form.heading &&
+            std::all_of(references.begin(), references.end(), [&](column_reference const& c) {
+                return c.number > 0 && (is_missing(cells[c.number - 1]) ||
+                                        parse_reading(cells[c.number - 1], s.form.decimal));
+            }))
+            fail(line, 0, "the line of the headings may be a row: its mapped cells are numbers",
+                 "state \"heading\" in the mapping's source: false if it is the first row, true "
+                 "if it names the columns");
+    };
+    std::size_t skip = s.form.skip_lines, passed = 0; // the last line that may have been a row
     for (auto const& line : lines_of(text)) {
         if (skip > 0) {
             --skip;
@@ -138,17 +166,25 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
             continue;
         }
         auto const plain = without_blanks(line.text);
-        if (plain.empty() || plain.front() == '#') continue;
-        auto const cells = split_cells(line.text, s.form.separator);
+        auto cells = split_cells(line.text, s.form.separator);
+        bool const blank =
+            plain.empty() && (headings.empty() || (headings.size() > 1 && cells->size() < 2));
+        if (blank || (plain.starts_with('#') && !(cells && is_missing(cells->front())))) {
+            protocol.add(kind::dropped, s.name, "", "blank or comment", line.number);
+            if (!headings.empty() || (blank && s.form.heading == false)) passed = line.number;
+            continue;
+        }
+        if (passed > 0 && s.time.sample_time)
+            fail(passed, 0, "a blank line or a comment above a row: it may stand for a row",
+                 "remove it, or fill its cells, since only their number tells when rows were");
+        if (plain.empty() && headings.size() == 1) cells->assign(1, "");
         if (!cells)
             fail(line.number, 0, "a quotation mark out of place",
                  "quote whole cells, and end each on its line");
         if (headings.empty()) {
-            headings = *cells;
-            if (!s.time.sample_time) time_column = find_column(s.time.column, headings, file);
-            for (auto const& c : columns_of(s)) columns.push_back(find_column(c, headings, file));
+            heads(line.number, *cells);
             skip = s.form.skip_after_heading;
-            continue;
+            if (s.form.heading != false) continue;
         }
         if (cells->size() != headings.size())
             fail(line.number, 0,
@@ -157,9 +193,7 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
                  "correct the line, or import the file as a serial log, which drops such lines");
         auto const number = [&](std::size_t c) -> std::optional<exact_decimal> {
             auto const& cell = (*cells)[c];
-            if (cell.empty() || std::find(s.form.missing.begin(), s.form.missing.end(), cell) !=
-                                    s.form.missing.end())
-                return std::nullopt;
+            if (is_missing(cell)) return std::nullopt;
             auto const value = parse_reading(cell, s.form.decimal);
             if (!value)
                 fail(line.number, c + 1, in_quotes(cell) + " is not a finite number",
