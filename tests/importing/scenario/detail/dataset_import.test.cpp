@@ -39,6 +39,32 @@ TEST_CASE("decimals are scaled exactly") {
     CHECK(r.protocol.scenarios.at(0).file == "a.csv");
 }
 
+TEST_CASE(
+    "an input that steps between two times that are one double, or in one tick, has stepped") {
+    // u = 0 until 1.01 s, then 5; what is measured is the level + u.
+    auto const hold = replaced(csv_mapping, "\"linear\"", "\"hold\"");
+    auto const table =
+        "time,pump,level\n0,0,100\n1010,0,100\n1010.0000000000001,5,105\n2000,5,105\n";
+    auto const check = [](imported_dataset const& r, double at) {
+        auto const& s = r.data.scenarios.at(0);
+        auto const& u = s.inputs.at(0).signal;
+        CHECK(u.approximate(at - 0.001) == 0);
+        CHECK(u.approximate(at) == 5);
+        CHECK(u.approximate(at + 0.5) == 5);
+        REQUIRE(s.measurements.size() == 3);
+        CHECK(s.measurements[1].time == at);
+        return mid(s.measurements[1].bound);
+    };
+    CHECK_THAT(check(import_csv(hold, table), 1.01), WithinAbs(1.05, 1e-9));
+    CHECK_THAT(refusal(csv_mapping, table),
+               ContainsSubstring("a.csv: line 4: the input 'u' has another value in line 3"));
+    auto const log = replaced(serial_mapping, "0.05", "2");
+    auto const lines = "0,0,100\n1000,0,100\n1000,5,105\n2000,5,105\n";
+    CHECK(check(import_serial(log, lines), 1) == 105);
+    CHECK_THAT(refusal(replaced(log, "\"hold\"", "\"linear\""), lines),
+               ContainsSubstring("a.log: line 3: the input 'u' has another value in line 2"));
+}
+
 TEST_CASE("bounds of a column, in the unit of the readings") {
     auto const r =
         import_csv(replaced(csv_mapping, "\"error\": 0.02", "\"error\": {\"column\": \"bound\"}"),

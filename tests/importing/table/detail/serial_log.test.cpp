@@ -44,7 +44,8 @@ cleaned clean(std::string_view mapping, std::string const& log) {
     for (auto const& l : lines_of(log)) all.insert(l.number);
     CHECK(seen == all);
     for (auto const& s : result.stretches)
-        for (std::size_t i = 1; i < s.rows.size(); ++i) CHECK(s.rows[i - 1].time < s.rows[i].time);
+        for (std::size_t i = 1; i < s.rows.size(); ++i)
+            CHECK_FALSE(s.rows[i].time < s.rows[i - 1].time);
     return result;
 }
 std::string refused(std::string_view mapping, std::string const& log) {
@@ -89,16 +90,16 @@ TEST_CASE("garbled, cut and repeated lines are dropped with their numbers") {
                                          "80,1,2\n"
                                          "90,\"1,2\n"
                                          "100,1,2"); // no line end
-    CHECK(c.kept() == lines{2, 3, 6, 10, 14});
+    CHECK(c.kept() == lines{2, 3, 6, 8, 10, 14});
+    CHECK(c.stretches[0].rows[3].time == c.stretches[0].rows[2].time);
     CHECK(c.dropped("not as many cells") == lines{1, 4, 5});
     CHECK(c.dropped("repeats") == lines{7});
-    CHECK(c.dropped("same time") == lines{8});
     CHECK(c.dropped("a cell is not a number") == lines{9, 13});
     CHECK(c.dropped("the time is missing") == lines{11});
     CHECK(c.dropped("cannot show this time") == lines{12});
     CHECK(c.dropped("quotation mark") == lines{15});
     CHECK(c.dropped("no end") == lines{16});
-    CHECK_FALSE(c.stretches[0].rows[3].cells.at(1));
+    CHECK_FALSE(c.stretches[0].rows[4].cells.at(1));
 }
 
 TEST_CASE("the counter wraps") {
@@ -123,11 +124,12 @@ TEST_CASE("one garbled time moves no other") {
         auto const c = clean(with(R"("gap": "split", "restart": "split")"),
                              "0,1,2\n10,1,2\n20,1,2\n" + bad + ",5,5\n40,1,2\n50,1,2\n60,1,2\n");
         REQUIRE(c.stretches.size() == 1);
-        // 25 is plausible; where a time goes back by less than a usual step, both neighbours go.
-        auto const expected = bad == "25"   ? lines{1, 2, 3, 4, 5, 6, 7}
-                              : bad == "12" ? lines{1, 2, 5, 6, 7}
-                              : bad == "49" ? lines{1, 2, 3, 6, 7}
-                                            : lines{1, 2, 3, 5, 6, 7};
+        // 25 and 20 are plausible; where a time goes back by less than a usual step, both
+        // neighbours go.
+        auto const expected = bad == "25" || bad == "20" ? lines{1, 2, 3, 4, 5, 6, 7}
+                              : bad == "12"              ? lines{1, 2, 5, 6, 7}
+                              : bad == "49"              ? lines{1, 2, 3, 6, 7}
+                                                         : lines{1, 2, 3, 5, 6, 7};
         CHECK(c.kept() == expected);
     }
     // Several in a row, and at the ends.

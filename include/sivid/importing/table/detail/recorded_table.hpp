@@ -18,7 +18,7 @@
 
 namespace sivid {
 
-/// Readings of one recorded stretch: rows at strictly increasing times.
+/// Readings of one recorded stretch: rows at increasing times, in a log several in one tick.
 struct recorded_table {
     struct row {
         std::size_t line = 0;

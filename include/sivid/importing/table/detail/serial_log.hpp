@@ -49,8 +49,8 @@ namespace sivid {
 /// - else c goes on from b and not from a: the stream went on at b. b > a is a gap; b < a a
 /// restart.
 /// - else the line is dropped.
-/// So a wrap is believed where it is a usual step, and a restart otherwise; one garbled time never
-/// moves the others.
+/// Different lines in one tick count if the first does. So a wrap is believed where it is a usual
+/// step, and a restart otherwise; one garbled time never moves the others.
 class serial_log_reader {
 public:
     serial_log_reader(scenario_mapping const& s, import_protocol& protocol)
@@ -144,10 +144,10 @@ private:
             return begin(b);
         }
         auto const& a = *last_;
-        if (b.time == a.time)
-            return drop(b.number, b.text == a.text
-                                      ? "repeats the line before it"
-                                      : "same time as the line before it, which counts");
+        if (b.time == a.time) { // which of the readings count is decided for each quantity
+            if (b.text == a.text) return drop(b.number, "repeats the line before it");
+            return append(b);
+        }
         bool const c_from_a = c != nullptr && stamps_.goes_on(a.time, *c);
         if (stamps_.goes_on(a.time, b.time)) {
             if (c_from_a && !c_from_b) {
