@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
+
 using namespace sivid;
 using namespace io_support;
 
@@ -55,6 +57,31 @@ TEST_CASE("what cannot be written leaves nothing") {
     broken.data.scenarios[0].role = scenario_role::holdout;
     CHECK_THROWS_AS(write_import(broken, folder.path() / "out"), std::logic_error);
     CHECK(entries(folder.path()) == 3);
+}
+
+TEST_CASE("an import that fails while it replaces another leaves the other whole") {
+    temporary_folder const folder;
+    folder.write("mapping.json", csv_mapping);
+    folder.write("a.csv", small_table);
+    auto const old = import_in(folder);
+    folder.write("a.csv", "time,pump,level,bound\n0,7,700,1\n300,7,701,1\n");
+    auto const next = import_dataset(read_import_mapping(folder.path() / "mapping.json"));
+    auto const files = {"dataset.json", "A.inputs.csv", "A.measurements.csv", "import.txt",
+                        "import.json"};
+    for (std::string const blocked : files) {
+        CAPTURE(blocked);
+        write_import(old, folder.path() / "out");
+        std::map<std::string, std::string> before;
+        for (std::string const file : files) before[file] = folder.read("out/" + file);
+        fs::remove(folder.path() / "out" / blocked);
+        fs::create_directory(folder.path() / "out" / blocked);
+        CHECK_THROWS_AS(write_import(next, folder.path() / "out"), output_error);
+        fs::remove(folder.path() / "out" / blocked);
+        for (std::string const file : files)
+            if (file != blocked) CHECK(folder.read("out/" + file) == before[file]);
+        CHECK(entries(folder.path() / "out") == 4);
+        CHECK(entries(folder.path()) == 3);
+    }
 }
 
 TEST_CASE("the worked example of a data logger") {

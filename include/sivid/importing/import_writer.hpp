@@ -5,20 +5,21 @@
 #include <sivid/importing/scenario/detail/dataset_import.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_writer.hpp>
+#include <sivid/io/file_set.hpp>
+#include <sivid/io/text/text_file.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <vector>
 
 namespace sivid {
 
 /// Stores an imported data set as a folder: the data set, import.txt and import.json (the
-/// protocol). It is written beside the folder, read back, and moved there only then: whatever
-/// fails, the folder stays as it was.
+/// protocol). It is written beside the folder and read back first. A new folder appears whole; in
+/// one that is there the files take their names together (`file_set`): what cannot be written
+/// leaves it as it was, and at no time does a mixture of two imports read as a data set.
 /// @throws output_error
 /// @throws std::logic_error  when the reader refuses what was written
 inline void write_import(imported_dataset const& imported, std::filesystem::path const& folder) {
@@ -35,31 +36,25 @@ inline void write_import(imported_dataset const& imported, std::filesystem::path
             fs::remove_all(path, ignored);
         }
     } const clean{staging};
-    write_dataset(imported.data, imported.names, staging);
-    write_atomically(staging / "import.txt", imported.protocol.text());
-    write_atomically(staging / "import.json", imported.protocol.json());
+    auto const write_to = [&](fs::path const& place) {
+        file_set files{place};
+        files.add("import.txt", imported.protocol.text());
+        files.add("import.json", imported.protocol.json());
+        add_dataset(files, imported.data, imported.names); // dataset.json last
+        files.commit();
+    };
+    write_to(staging);
     try {
         (void)read_dataset(staging, imported.names);
     } catch (input_error const& e) {
         throw std::logic_error{std::string{"the imported data set is not valid: "} + e.what()};
     }
-    auto const give_up = [&] {
-        throw output_error{target.string() + ": cannot be written: " + fault.message()};
-    };
     if (!fs::exists(target, fault)) {
         fs::rename(staging, target, fault);
-        if (fault) give_up();
+        if (fault) throw output_error{target.string() + ": cannot be written: " + fault.message()};
         return;
     }
-    std::vector<fs::path> files;
-    for (auto const& file : fs::directory_iterator{staging})
-        files.push_back(file.path().filename());
-    // dataset.json last: with it the folder reads as complete.
-    std::partition(files.begin(), files.end(), [](auto const& f) { return f != "dataset.json"; });
-    for (auto const& file : files) {
-        fs::rename(staging / file, target / file, fault);
-        if (fault) give_up();
-    }
+    write_to(target);
 }
 
 } // namespace sivid
