@@ -57,7 +57,11 @@ TEST_CASE("variables of both byte orders, exactly") {
         CHECK(*x->at(1, 1) == dec("255"));
         CHECK(*x->at(0, 1) == dec("3"));
         CHECK(*find(file, "f")->at(0, 0) == exact_value(static_cast<double>(0.1F)));
+        CHECK(*t->meant_at(1, 0) == dec("0.1"));
+        CHECK(*find(file, "f")->meant_at(0, 0) == dec("0.1"));
+        CHECK(find(file, "f")->single);
         CHECK(*find(file, "n")->at(0, 0) == dec("9007199254740993"));
+        CHECK(*find(file, "n")->meant_at(0, 0) == dec("9007199254740993"));
         CHECK(*find(file, "n")->at(1, 0) == dec("-5"));
         CHECK_FALSE(find(file, "word")->numeric);
         CHECK(find(file, "log.time")->columns == 2);

@@ -52,6 +52,34 @@ TEST_CASE("the digits of a double that are cut go into the bound") {
     CHECK_FALSE(truth - dec("0.02") < s.stated[0].value - s.stated[0].error);
 }
 
+TEST_CASE("times are what they were computed from: integers as they are, singles by their digits") {
+    auto const y = w.doubles("y", 4, 1, {1, 2, 3, 4});
+    auto const times_of = [&](std::string const& unit, std::string const& t) {
+        auto const time =
+            R"("time": { "column": "t", "unit": ")" + unit + R"(", "offset": "first" })";
+        return import_csv(mapping(time, "y", "y"), w.file(t + y));
+    };
+    // Nanoseconds since 1970, 100 ns apart: doubles are 256 ns apart there.
+    std::vector<std::int64_t> ticks;
+    std::vector<float> seconds;
+    for (int k = 0; k < 4; ++k) {
+        ticks.push_back(1'700'000'000'000'000'037 + 100 * k);
+        seconds.push_back(static_cast<float>(1000 + 0.001 * k));
+    }
+    auto const fine = times_of("ns", w.matrix(14, "t", 4, 1, w.element(12, w.numbers(ticks))));
+    REQUIRE(fine.data.scenarios.at(0).measurements.size() == 4);
+    for (std::size_t k = 0; k < 4; ++k)
+        CHECK(fine.data.scenarios[0].measurements[k].time == *nearest(dec("1e-7").times(k)));
+    CHECK_FALSE(has_note(fine.protocol, "single precision"));
+    auto const coarse = times_of("s", w.matrix(7, "t", 4, 1, w.element(7, w.numbers(seconds))));
+    for (std::size_t k = 0; k < 4; ++k)
+        CHECK(coarse.data.scenarios.at(0).measurements.at(k).time ==
+              *nearest(dec("0.001").times(k)));
+    CHECK(has_note(coarse.protocol, "no bound allows for steps of 0.000062 s"));
+    CHECK(std::any_of(coarse.data.assumptions.begin(), coarse.data.assumptions.end(),
+                      [](auto const& a) { return a.find("single precision") != a.npos; }));
+}
+
 TEST_CASE("references that do not fit are refused at their place") {
     auto const has = [](std::string const& m, std::string const& message) {
         CHECK_THAT(refusal(m, recorded), ContainsSubstring(message));

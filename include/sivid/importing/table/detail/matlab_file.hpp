@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +33,7 @@ struct matlab_variable {
     std::string name;
     std::string about;    ///< "double 1000x3"
     bool numeric = false; ///< real numbers, readable by `at`
+    bool single = false;  ///< in single precision
     std::size_t rows = 0, columns = 0;
 
     /// The number in a row and column from 0, column by column, exactly.
@@ -71,6 +73,20 @@ struct matlab_variable {
         if (std::isnan(x)) return std::nullopt;
         if (std::isinf(x)) throw std::range_error{"infinite"};
         return exact_value(x);
+    }
+
+    /// The decimal that a number was computed from: the shortest that its precision tells, so 0.3,
+    /// not 0.299999999999999989. Integers are what they are.
+    /// @throws std::range_error  as `at`
+    [[nodiscard]] std::optional<exact_decimal> meant_at(std::size_t row, std::size_t column) const {
+        auto const exact = at(row, column);
+        if (!exact || (type != 7 && type != 9)) return exact;
+        double const x = *nearest(*exact);
+        if (type == 9) return exact_decimal::shortest(x);
+        std::array<char, 32> buffer;
+        auto* const end =
+            std::to_chars(buffer.data(), buffer.data() + buffer.size(), static_cast<float>(x)).ptr;
+        return exact_decimal::parse({buffer.data(), static_cast<std::size_t>(end - buffer.data())});
     }
 
     unsigned type = 0;     ///< how the numbers are stored
@@ -210,6 +226,7 @@ private:
             if (v.bytes == 0 || v.data.size() % v.bytes != 0 || v.data.size() / v.bytes != count)
                 damaged();
             v.numeric = true;
+            v.single = kind == 7;
         }
         variables_.push_back(std::move(v));
     }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -28,6 +29,10 @@ struct matlab_vector {
     }
     [[nodiscard]] std::optional<exact_decimal> operator[](std::size_t i) const {
         return along_rows ? variable->at(i, fixed) : variable->at(fixed, i);
+    }
+    /// As `matlab_variable::meant_at`.
+    [[nodiscard]] std::optional<exact_decimal> meant(std::size_t i) const {
+        return along_rows ? variable->meant_at(i, fixed) : variable->meant_at(fixed, i);
     }
 };
 
@@ -78,11 +83,12 @@ struct matlab_vector {
 }
 
 /// Reads the vectors that the mapping names out of a MATLAB file as the columns of one table: row k
-/// holds their k-th numbers. NaN is no reading.
+/// holds their k-th numbers. NaN is no reading. Times are the decimals that they were computed
+/// from; how coarse single-precision ones are is noted.
 /// @throws input_error  for vectors of different lengths, infinite numbers, times that do not
 ///                      increase
-[[nodiscard]] inline recorded_table read_matlab_table(scenario_mapping const& s,
-                                                      matlab_file const& file) {
+[[nodiscard]] inline recorded_table
+read_matlab_table(scenario_mapping const& s, matlab_file const& file, import_protocol& protocol) {
     auto const fail = [&](std::size_t line, std::string const& heading, std::string const& problem,
                           std::string const& remedy) {
         throw input_error{{.file = file.name(), .line = line, .heading = heading}, problem, remedy};
@@ -103,11 +109,15 @@ struct matlab_vector {
                                       std::to_string(vectors.front().size())),
                               "name vectors that were recorded together"};
     }
+    auto const is_time = [&](std::size_t i) {
+        return !s.time.sample_time && i + 1 == vectors.size();
+    };
+    double latest = 0;
     for (std::size_t k = 0; k < vectors.front().size(); ++k) {
         std::vector<std::optional<exact_decimal>> cells;
         for (std::size_t i = 0; i < vectors.size(); ++i) {
             try {
-                cells.push_back(vectors[i][k]);
+                cells.push_back(is_time(i) ? vectors[i].meant(k) : vectors[i][k]);
             } catch (std::range_error const&) {
                 fail(k + 1, references[i].heading, "an infinite number",
                      "write NaN where there is no reading");
@@ -115,11 +125,20 @@ struct matlab_vector {
         }
         std::optional<exact_decimal> stamp;
         if (!s.time.sample_time) {
-            // A time means the decimal that it was computed from: 0.3, not 0.299999999999999989.
-            if (cells.back()) stamp = exact_decimal::shortest(*nearest(*cells.back()));
+            stamp = cells.back();
             cells.pop_back();
+            if (stamp) latest = std::max(latest, std::abs(*nearest(*stamp)));
         }
         rows.add(k + 1, stamp, std::move(cells));
+    }
+    if (!s.time.sample_time && vectors.back().variable->single) {
+        auto const most = static_cast<float>(std::min(latest, 1e38));
+        auto const step = std::nextafter(most, HUGE_VALF) - most;
+        protocol.add(import_protocol::kind::assumed, s.name, "",
+                     text_of("the times are of single precision: the shortest decimals are taken, "
+                             "and no bound allows for steps of ",
+                             rounded_up(exact_decimal::shortest(step), 2).text(), " ", s.time.unit,
+                             " between the numbers that there are"));
     }
     return rows.take();
 }

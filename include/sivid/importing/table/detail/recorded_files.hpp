@@ -49,20 +49,20 @@ public:
         for (auto const& r : kept_)
             if (same(*r.by, s)) return r;
         recorded_stretches result{&s, {}, {}, 0};
+        import_protocol protocol;
         auto text = tools_.read(s.file);
         if (s.form.from == source_form::kind::matlab) {
             matlab_file const file{s.file.string(), std::move(text), tools_.inflate};
-            result.stretches.push_back(read_matlab_table(s, file));
+            result.stretches.push_back(read_matlab_table(s, file, protocol));
             result.lines = result.stretches.back().rows.size();
         } else {
-            import_protocol protocol;
             if (s.form.from == source_form::kind::csv)
                 result.stretches.push_back(read_recorded_table(s, text, protocol));
             else
                 result.stretches = read_serial_log(s, text, protocol);
             result.lines = lines_of(text).size();
-            result.notes = protocol.notes();
         }
+        result.notes = protocol.notes();
         return kept_.emplace_back(std::move(result));
     }
 
