@@ -51,6 +51,12 @@ public:
                                       std::vector<double> const& all) const {
         return matrix(6, name, rows, columns, element(9, numbers(all)));
     }
+    /// An object, as of a table: name, system, class, and what refers to a store in the file.
+    [[nodiscard]] std::string object(std::string const& name, std::string const& type) const {
+        return element(14, element(6, number(std::uint32_t{17}) + number(std::uint32_t{0})) +
+                               element(1, name) + element(1, "MCOS") + element(1, type) +
+                               matrix(13, "", 6, 1, element(6, std::string(24, '\1'))));
+    }
     /// A structure of one element from fields, each a matrix without a name.
     [[nodiscard]] std::string
     structure(std::string const& name,

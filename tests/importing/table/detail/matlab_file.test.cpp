@@ -99,6 +99,25 @@ TEST_CASE(
     CHECK(file.variables()[2].about == "double 1x1x1");
 }
 
+TEST_CASE("objects are listed, and leave the variables beside them readable") {
+    for (bool const little : {true, false}) {
+        matlab_writer const w{little};
+        matlab_file const file{"a.mat",
+                               w.file(w.object("T", "table") + w.doubles("y", 2, 1, {1, 2}) +
+                                      w.structure("log", {{"d", w.object("", "datetime")},
+                                                          {"u", w.doubles("", 1, 1, {7})}}) +
+                                      w.matrix(9, "", 1, 3, w.element(2, "abc"))), // their store
+                               {}};
+        REQUIRE(file.variables().size() == 4);
+        CHECK(find(file, "T")->about == "an object of class 'table'");
+        CHECK(find(file, "T")->object);
+        CHECK_FALSE(find(file, "T")->numeric);
+        CHECK(find(file, "log.d")->about == "an object of class 'datetime'");
+        CHECK(*find(file, "y")->at(1, 0) == dec("2"));
+        CHECK(*find(file, "log.u")->at(0, 0) == dec("7"));
+    }
+}
+
 TEST_CASE("compressed variables are inflated by the program, or refused with a way out") {
     matlab_writer const w;
     auto const inner = w.doubles("t", 2, 1, {1, 2});

@@ -25,7 +25,8 @@ std::string const recorded =
     w.file(w.doubles("t", 1, 4, {0, 0.1, 0.2, 0.3}) +
            w.doubles("X", 4, 2, {1, 2, 3, 4, 100, missing, 102, 103.5}) +
            w.structure("log", {{"h", w.doubles("", 2, 4, {0, 100, 0, 101, 0, 102, 0, 103})}}) +
-           w.doubles("short", 3, 1, {1, 2, 3}) + w.matrix(4, "s", 1, 2, w.element(16, "ab")));
+           w.doubles("short", 3, 1, {1, 2, 3}) + w.matrix(4, "s", 1, 2, w.element(16, "ab")) +
+           w.object("T", "timetable"));
 
 } // namespace
 
@@ -92,6 +93,10 @@ TEST_CASE("references that do not fit are refused at their place") {
     has(mapping(by_t, "t", "X(:,:)"), "write (:,k)");
     has(mapping(by_t, "t", "X(:,0)"), "write (:,k)");
     has(mapping(by_t, "t", "s"), "no full real matrix of numbers");
+    for (auto const* inside : {"T", "T.h"}) {
+        has(mapping(by_t, "t", inside), ": 'T' is an object of class 'timetable', which MATLAB");
+        has(mapping(by_t, "t", inside), "save vectors of numbers there: t = T.t of a table T");
+    }
     has(mapping(by_t, "t", "short"), "'short' has 3 numbers, 't' has 4");
     has(replaced(mapping(by_t, "t", "t"), "\"column\": \"t\", \"factor\"",
                  "\"column\": 2, \"factor\""),

@@ -34,6 +34,7 @@ struct matlab_variable {
     std::string about;    ///< "double 1000x3"
     bool numeric = false; ///< real numbers, readable by `at`
     bool single = false;  ///< in single precision
+    bool object = false;  ///< a table, datetime, string...: only MATLAB takes it apart
     std::size_t rows = 0, columns = 0;
 
     /// The number in a row and column from 0, column by column, exactly.
@@ -118,7 +119,8 @@ public:
 
 private:
     static constexpr std::size_t head = 128, deepest = 8;
-    static constexpr unsigned matrix = 14, compressed = 15;
+    static constexpr unsigned matrix = 14, compressed = 15; // elements
+    static constexpr unsigned opaque = 17;                  // a class
     struct element {
         unsigned type = 0;
         std::string_view data;
@@ -197,11 +199,20 @@ private:
             "",     "cell",  "struct", "object", "char",  "sparse", "double", "single",
             "int8", "uint8", "int16",  "uint16", "int32", "uint32", "int64",  "uint64"};
         if (body.empty()) return; // an empty field
-        auto const flags = next(body), dims = next(body), name = next(body);
-        auto const about = word(flags.data, 0);
+        auto const about = word(next(body).data, 0);
         auto const kind = about & 0xFF;
         matlab_variable v;
+        if (kind == opaque) { // its name, "MCOS", its class, and what MATLAB alone knows
+            v.name = prefix + std::string{next(body).data};
+            (void)next(body);
+            v.about = "an object of class " + in_quotes(next(body).data);
+            v.object = true;
+            variables_.push_back(std::move(v));
+            return;
+        }
+        auto const dims = next(body), name = next(body);
         v.name = prefix + std::string{name.data};
+        if (v.name.empty()) return; // MATLAB's store of what its objects hold
         v.about = kind > 0 && kind < classes.size() ? classes[kind] : "something else";
         bool const complex = (about & 0x0800) != 0;
         if (complex) v.about = "complex " + v.about;

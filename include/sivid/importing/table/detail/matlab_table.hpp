@@ -52,13 +52,19 @@ struct matlab_vector {
     matlab_variable const* found = nullptr;
     std::string known;
     for (auto const& v : file.variables()) {
-        if (v.name == name) found = &v; // the last one, as in MATLAB
+        bool const inside = v.object && name.starts_with(v.name + ".");
+        if (v.name == name || inside) found = &v; // the last one, as in MATLAB
         if (known.size() < 400)
             known += text_of(known.empty() ? "" : ", ", in_quotes(v.name), " (", v.about, ")");
     }
     if (found == nullptr)
         fail(text_of(" has no variable ", in_quotes(std::string{name})), "it has: " + known);
     auto const what = text_of(": ", in_quotes(found->name), " is ", found->about);
+    if (found->object)
+        fail(what + ", which MATLAB alone can take apart",
+             "save vectors of numbers there: t = T.t of a table T, t = seconds(d - d(1)) of times "
+             "d, "
+             "y = double(s) of texts s");
     if (!found->numeric)
         fail(what + ", no full real matrix of numbers", "name another; it has: " + known);
     matlab_vector result{found, true, 0};
