@@ -71,6 +71,13 @@ TEST_CASE("every defect of a table is one error with line and column") {
     }
 }
 
+TEST_CASE("a heading of many columns takes no longer than its length") {
+    std::string text = "t";
+    for (int i = 0; i < 100'000; ++i) text += ",c" + std::to_string(i);
+    CHECK(csv_table("a.csv", text).headings().size() == 100'001);
+    CHECK_THROWS_AS(csv_table("a.csv", text + ",c5"), input_error);
+}
+
 TEST_CASE("a cell that is no finite number is an error") {
     for (auto const& cell : {"", "x", "nan", "NaN", "inf", "-inf", "infinity", "0x10", "1;5",
                              "1.5.2", "1e", "1e999", "-1e400", "1e999999999999"}) {

@@ -70,6 +70,15 @@ TEST_CASE("every defect of a document is one error with its pointer") {
     }
 }
 
+TEST_CASE("an object of many keys takes no longer than its length") {
+    std::string text = "{";
+    for (int i = 0; i < 100'000; ++i) text += "\"key_" + std::to_string(i) + "\": {\"key\": 1}, ";
+    auto const root = parse(text + "\"key\": 2}");
+    CHECK(root.members().size() == 100'001);
+    CHECK(root.name_of(77'777) == "key_77777");
+    CHECK_THROWS_AS(parse(text + "\"key_5\": 2}"), input_error);
+}
+
 TEST_CASE("a value of another type is an error with its pointer") {
     auto const root =
         parse(R"({"a/b~c": [1, "x"], "o": {"k": 1}, "e": "", "n": "\n", "deep": 1e-400})");

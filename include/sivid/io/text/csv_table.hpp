@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -128,13 +129,13 @@ private:
         std::vector<std::string_view> cells;
         split(number, line, cells);
         heading_line_ = number;
+        std::set<std::string_view> names;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (cells[i].empty())
                 fail(number, i, "a column without a heading", "name it or remove it");
-            for (std::size_t j = 0; j < i; ++j)
-                if (cells[i] == cells[j])
-                    fail(number, i, text_of("the heading ", in_quotes(cells[i]), " appears twice"),
-                         "keep one of the columns");
+            if (!names.insert(cells[i]).second)
+                fail(number, i, text_of("the heading ", in_quotes(cells[i]), " appears twice"),
+                     "keep one of the columns");
         }
         headings_.assign(cells.begin(), cells.end());
     }

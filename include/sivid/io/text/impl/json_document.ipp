@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -131,7 +132,7 @@ public:
     bool end_array() { return close(); }
     bool key(std::string const& name) {
         auto& object = *path_.back();
-        if (std::find(object.names_.begin(), object.names_.end(), name) != object.names_.end())
+        if (!names_.back().insert(name).second)
             object.fail(text_of("the key ", in_quotes(name), " appears twice"), "keep one of them");
         object.names_.push_back(name);
         return true;
@@ -201,10 +202,12 @@ private:
         if (path_.size() >= deepest)
             value.fail("nested too deeply", "see the description of the format");
         path_.push_back(&value);
+        names_.emplace_back();
         return true;
     }
     bool close() {
         path_.pop_back();
+        names_.pop_back();
         return true;
     }
     static std::string escaped(std::string const& name) {
@@ -225,6 +228,7 @@ private:
     std::size_t position_ = 0;
     json_value root_;
     std::vector<json_value*> path_;
+    std::vector<std::set<std::string>> names_; ///< of each on the path
 };
 
 SIVID_DECL json_value parse_json(std::string file, std::string const& text) {
