@@ -73,6 +73,20 @@ TEST_CASE("what is written reads back as the same value") {
     check_equal(data, read_dataset(copy.path() / "new", model));
 }
 
+TEST_CASE("two measurements of a channel at one time are refused: a table holds one") {
+    auto const model = io_support::hovercraft_names();
+    temporary_folder const folder;
+    io_support::write_small(folder);
+    auto data = read_dataset(folder.path(), model);
+    write_dataset(data, model, folder.path() / "new");
+    auto& s = data.scenarios[1];
+    s.measurements.push_back(s.measurements.front());
+    s.stated.push_back({*exact_decimal::parse("0.2"), s.stated.front().error});
+    CHECK_THROWS_WITH(write_dataset(data, model, folder.path() / "new"),
+                      ContainsSubstring("H1.measurements.csv: two measurements of 'r' at 0.5 s"));
+    CHECK(read_dataset(folder.path() / "new", model).scenarios[1].measurements.size() == 1);
+}
+
 TEST_CASE("a model without inputs is written with its time axis") {
     auto model = io_support::hovercraft_names();
     model.inputs.clear();

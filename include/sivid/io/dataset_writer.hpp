@@ -6,7 +6,10 @@
 #include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/file_set.hpp>
+#include <sivid/io/input_error.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/io/text/json_writer.hpp>
+#include <sivid/io/text/text_file.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -51,12 +54,19 @@ namespace sivid {
 }
 
 /// The text of `<scenario>.measurements.csv`, with the channels that occur.
+/// @throws output_error  for two measurements of a channel at one time: the table has one line for
+///                       each time, and neither may be lost
 [[nodiscard]] inline std::string measurements_csv(scenario const& s, model_names const& model) {
     std::set<std::size_t> channels;
     std::map<double, std::map<std::size_t, stated_measurement const*>> rows;
     for (std::size_t i = 0; i < s.measurements.size(); ++i) {
-        channels.insert(s.measurements[i].channel);
-        rows[s.measurements[i].time][s.measurements[i].channel] = &s.stated.at(i);
+        auto const& m = s.measurements[i];
+        channels.insert(m.channel);
+        if (!rows[m.time].try_emplace(m.channel, &s.stated.at(i)).second)
+            throw output_error{text_of(s.name, ".measurements.csv: two measurements of ",
+                                       in_quotes(model.channels.at(m.channel).name), " at ",
+                                       exact_decimal::shortest(m.time).text(),
+                                       " s; leave one of them out")};
     }
     std::string text = "t";
     for (auto c : channels)
@@ -157,14 +167,14 @@ namespace sivid {
 /// Adds the files of a data set in the format sivid-dataset-1, dataset.json last.
 /// @given  as read_dataset returns it: one interpolation in a scenario, indices within the model's
 /// (trusted)
-/// @throws output_error
+/// @throws output_error  as `file_set::add` and `measurements_csv`
 SIVID_DECL void add_dataset(file_set& files, dataset const& data, model_names const& model);
 
 /// Stores a data set as a folder in the format sivid-dataset-1; read_dataset gives the same value
 /// back. All files take their names together (`file_set`): a full disk leaves what was there, and a
 /// run that was killed leaves nothing that reads as complete.
 /// @given  as for `add_dataset`
-/// @throws output_error
+/// @throws output_error  also as `measurements_csv`; nothing has changed then
 SIVID_DECL void write_dataset(dataset const& data, model_names const& model,
                               std::filesystem::path const& folder);
 
