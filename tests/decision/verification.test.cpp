@@ -33,6 +33,18 @@ TEST_CASE("a requirement holds for all parameters, or a witness violates it") {
     CHECK(says.witness->found.low <= 2 * std::exp(-rate) - 0.74);
 }
 
+TEST_CASE("a chain of comparisons is asked at one time") {
+    // x0(t) = 2 exp(-p0 t) is within [0.099, 0.45] at 3, and 2 at time 0.
+    auto const p = decay({{between(0.5, 1)}}, {sivid::interval(2.0)}, 3);
+    for (auto const* text : {"0.5 < x0 < 3 at 3", "3 > x0 > 0.5 at 3", "0.5 < x0 at 3 < 3",
+                             "0.5 at 3 < x0 < 3", "x0 in [0.5, 3 at 3]"}) {
+        CAPTURE(text);
+        CHECK(verified(p, text).answer == answer::refuted);
+    }
+    CHECK(verified(p, "0 < x0 < 0.5 at 3").answer == answer::proved);
+    CHECK(verified(p, "always(0 < x0 < 0.5 at 3)").answer == answer::proved);
+}
+
 TEST_CASE("the robustness holds that of every motion") {
     auto const p = decay({{between(0.5, 1)}}, {sivid::interval(2.0)}, 2);
     auto const says = verified(p, "x0 at 1 > 0.7");

@@ -120,6 +120,11 @@ private:
             result_.labels.push_back(words_.text_from(begin));
         return result;
     }
+    /// a < b, or a <= b.
+    struct relation {
+        operand a, b;
+        bool strict;
+    };
     operand relations() {
         auto left = timed();
         if (words_.take("in")) {
@@ -128,22 +133,20 @@ private:
             words_.need(",", "write the range as [lower, upper]");
             auto const high = timed();
             words_.need("]", "write the range as [lower, upper]");
-            return join(kind::conjunction, less(low, left, false), less(left, high, false),
-                        left.position);
+            return compared({{low, left, false}, {left, high, false}});
         }
-        std::optional<operand> all;
-        while (auto const relation = words_.take_relation()) {
+        std::vector<relation> chain;
+        while (auto const sign = words_.take_relation()) {
             auto const right = timed();
-            bool const strict = relation->size() == 1;
-            auto const next =
-                relation->front() == '<' ? less(left, right, strict) : less(right, left, strict);
-            all = all ? join(kind::conjunction, *all, next, next.position) : next;
+            bool const less = sign->front() == '<';
+            chain.push_back({less ? left : right, less ? right : left, sign->size() == 1});
             left = right;
         }
-        if (!all && left.time)
+        if (!chain.empty()) return compared(chain);
+        if (left.time)
             words_.fail("a comparison is missing behind 'at'",
                         "write (x + 1) at 2 > 3: 'at' stands behind the whole expression");
-        return all.value_or(left);
+        return left;
     }
 
     /// An operand with `at T` behind it, if there is such.
@@ -166,29 +169,38 @@ private:
         return of;
     }
 
-    /// a < b, or a <= b.
-    operand less(operand const& a, operand const& b, bool strict) {
-        need_number(a);
-        need_number(b);
-        auto const time = a.time ? a.time : b.time;
+    /// All of a chain, at the time that it is asked at: every instant, unless one is named.
+    operand compared(std::vector<relation> const& chain) {
         auto const moves = [&](operand const& side) {
             return (g().depends(side.value) & (on_time | on_state | on_input)) != 0;
         };
-        // Behind a constant, as in x > 2 at 1, the time can but be that of the comparison.
-        bool const of_all = (a.time && !moves(a)) || (b.time && !moves(b));
-        for (auto const* side : {&a, &b}) {
-            bool const other = side->time ? *side->time != *time : moves(*side) && !of_all;
-            if (time && other)
-                words_.fail_at(side->position, "the two sides are not asked at the same time",
-                               "compare at one time, as in (x > y) at 2");
+        // Behind a constant, as in 1 < x < 2 at 1, the time can but be that of the whole chain.
+        std::optional<double> time;
+        bool of_all = false;
+        for (auto const& r : chain) {
+            for (auto const* side : {&r.a, &r.b}) {
+                need_number(*side);
+                if (!time) time = side->time;
+                of_all = of_all || (side->time && !moves(*side));
+            }
         }
-        auto holds = below(a.value, b.value, strict, a.position);
-        if (!time) return holds;
+        std::optional<operand> all;
+        for (auto const& r : chain) {
+            for (auto const* side : {&r.a, &r.b}) {
+                bool const other = side->time ? *side->time != *time : moves(*side) && !of_all;
+                if (time && other)
+                    words_.fail_at(side->position, "the sides are not asked at the same time",
+                                   "compare at one time, as in (x > y) at 2");
+            }
+            auto const next = below(r.a.value, r.b.value, r.strict, r.a.position);
+            all = all ? join(kind::conjunction, *all, next, next.position) : next;
+        }
+        if (!time) return *all;
         return formula({.what = kind::at,
-                        .first = holds.part,
+                        .first = all->part,
                         .from = *time,
                         .to = *time,
-                        .position = a.position});
+                        .position = all->position});
     }
 
     /// a < b, taken apart where a or b is an absolute value, a least or a greatest one.
