@@ -3,11 +3,15 @@
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
+#include "support/models.hpp"
 
+#include <sivid/decision/experiment_design.hpp>
 #include <sivid/decision/prediction.hpp>
+#include <sivid/decision/promised_width.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/io/decision_json.hpp>
 #include <sivid/io/result/problem_digest.hpp>
+#include <sivid/paving/identify.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -443,4 +447,50 @@ TEST_CASE("what a set constant does to a derived one is said") {
     auto const p = t.predicted(result.read(), r);
     CHECK(names(p->assumptions, "b is taken as it is stated, whatever the model's b = a/2"));
     for (auto const& line : p->assumptions) CHECK(line.back() != '.');
+}
+
+namespace {
+
+/// y0 = p0 p1 and y1 = p1 p2, each measured once, roughly: the products share p1.
+sivid::identification_problem shared_factor() {
+    using support::between;
+    sivid::identification_problem p;
+    p.model = support::model_of(
+        {.states = 1, .constants = 3},
+        [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{0 * x[0]}; },
+        [](auto const&, auto const& x, auto const& c, auto const&) {
+            return std::vector{c[0] * c[1] * x[0], c[1] * c[2] * x[0]};
+        });
+    p.choice.unknown = support::all_constants(3);
+    p.prior = {between(1, 1.2), between(1, 1.2), between(1, 1.2)};
+    sivid::experiment run;
+    run.name = "run";
+    run.initial = {sivid::interval(1.0)};
+    run.measurements = {{1, 0, between(0.5, 5)}, {1, 1, between(0.5, 5)}};
+    p.experiments = {run};
+    return p;
+}
+
+} // namespace
+
+TEST_CASE("what is reached is not said of products that no parameter reaches") {
+    auto const problem = shared_factor();
+    stored_result const stored(problem, sivid::identify(problem, {}));
+    sivid::prediction_request request;
+    request.initial = {sivid::interval(1.0)};
+    request.end = 1;
+    auto model = problem.model;
+    auto const goal = sivid::parse_goal("p0 / p2", model); // in [1 / 1.2, 1.2]
+    auto const p =
+        sivid::predict_from(problem, stored.read(), model, {goal.value}, request, "result.json");
+    REQUIRE(p->in_products);
+    REQUIRE(p->problem.reached);
+    CHECK(sivid::predict(p->problem).excess > 1e300);
+    // (1, 1, 1.2) and (1.2, 1, 1) explain the same data where errors are 0.11: nothing is told.
+    auto const promised = sivid::promise_widths(
+        p->problem, sivid::planned_measurements::every(1, 1, {0.11, 0.11}), {goal.value});
+    CHECK(promised.goals[0].before <= 1.2 - 1 / 1.2);
+    CHECK(promised.goals[0].before > 0.5 * (1.2 - 1 / 1.2));
+    CHECK(promised.goals[0].after >= 1.2 - 1 / 1.2);
+    CHECK(promised.goals[0].factor() == 1);
 }

@@ -42,7 +42,8 @@ struct measurement_worth {
 struct measurement_ranking {
     verdict explained = verdict::undecided; ///< whether anything explains all of the data
     interval volume;                        ///< of what does, against the prior
-    /// What the volumes are of: parameters, or products of them that the data tell.
+    /// What the volumes are of: parameters, or products of them that the data tell. Parameters
+    /// where such products share a factor: not all of their values together are reached then.
     std::vector<std::string> coordinates;
     std::vector<measurement_worth> groups; ///< what is worth most for certain comes first
     bool complete = false;                 ///< all bounds are as close as was asked for

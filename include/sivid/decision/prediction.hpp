@@ -28,7 +28,8 @@ struct prediction {
     double reached = 0;                  ///< instants up to here are bounded [s]
     bool complete = false;               ///< every instant of the scenario is bounded
     /// The tubes at the instants are at most this much wider, as a share, than what the parameters
-    /// and starts of the problem reach themselves; widths below a millionth do not count.
+    /// and starts of the problem reach themselves; widths below a millionth do not count. Infinite
+    /// where it is not known what they reach (`prediction_problem::reached`).
     double excess = std::numeric_limits<double>::infinity();
     std::size_t parts = 0, integrations = 0;
     double seconds = 0;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -42,6 +43,11 @@ struct prediction_problem {
     /// all of them for some starts. Its second argument ends runs when it says false; what was
     /// reached holds. May be left out: tubes are narrower with it, and more is decided.
     std::function<measured_responses(box const&, std::function<bool()> const&)> measured = nullptr;
+
+    /// Boxes within the sets of which parameters reach every point; nothing: all of the sets.
+    /// Products of parameters that share a factor cannot be chosen independently. What is said of
+    /// all motions holds for all of the sets, what is said to be reached only there.
+    std::optional<std::vector<box>> reached{};
 
     /// The smallest box around all sets.
     [[nodiscard]] box around() const {

@@ -211,6 +211,23 @@ TEST_CASE("nothing is reduced where no product can stand for its factors") {
     CHECK_FALSE(reduction::find(pole.problem, pole.structure));
 }
 
+TEST_CASE("a reduced prior is filled unless two products share a factor") {
+    auto const filled = [](auto const& s) {
+        auto const map = reduction::find(s.problem, s.structure);
+        REQUIRE(map);
+        return map->fills();
+    };
+    CHECK(filled(products()));
+    CHECK(filled(idle()));
+    CHECK(filled(shared_factor())); // of one product and p2
+    CHECK_FALSE(filled(make(
+        3,
+        [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] * p[1] - p[1] * p[2] * x[0]};
+        },
+        shared_prior)));
+}
+
 TEST_CASE("parameters that act nowhere are spared without any product") {
     auto const s = idle();
     auto const map = reduction::find(s.problem, s.structure);

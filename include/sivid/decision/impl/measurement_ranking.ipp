@@ -8,6 +8,7 @@
 #include <sivid/decision/ranking/detail/others_leave.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/invert.hpp>
+#include <sivid/paving/products/detail/drawing.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -62,13 +63,26 @@ inline interval growth_of(subpaving const& set, subpaving const& more) {
     if (!more.has_outer()) return interval(1.0);
     auto const ratio = [](interval const& a, interval const& b) {
         bool undefined = false;
-        return traits::add(traits::point(1.0), traits::div(a, b, undefined));
+        auto const share = traits::div(a, b, undefined);
+        return undefined ? traits::entire() : traits::add(traits::point(1.0), share);
     };
     double const least = ratio(more.inner_volume(), set.outer_volume()).lower();
     double const inside = set.inner_volume().lower();
     double const most = inside > 0 ? ratio(more.outer_volume(), interval(inside)).upper()
                                    : std::numeric_limits<double>::infinity();
     return {std::max(1.0, least), std::max(1.0, most)};
+}
+
+/// Of a paving of products what parameters may reach, with the volumes of these parameters.
+inline subpaving reached_of(subpaving const& products, reduction const& map, box const& prior) {
+    subpaving result(products.prior());
+    for (auto const& b : products.boxes()) {
+        auto const near = map.backward(prior, b.set);
+        if (!is_empty(near) && !is_empty(map.backward(near, b.set))) result.add(b.set, b.verdict);
+    }
+    auto const [inner, outer] = paving_detail::preimage_volumes(map, result, prior);
+    result.set_volumes(inner, outer);
+    return result;
 }
 
 } // namespace decision_detail
@@ -88,18 +102,23 @@ SIVID_DECL measurement_ranking rank_measurements(identification_problem const& p
     asking.search.boxes = options.boxes;
     asking.search.keep_outside = false;
     asking.search.keep_going = limit;
-    asking.drawn_boxes = 1;
+    asking.drawn_boxes = 1000; // where products are searched: nothing but whether any is reached
     auto const all = identify(problem, asking);
     auto const& posed = all.products ? all.products->map.problem() : problem;
-    auto const& set = all.products ? all.products->paving : all.paving;
+    auto const& searched = all.products ? all.products->paving : all.paving;
+    // Products that share a factor hold points that no parameter reaches: parameters count there.
+    auto const* const map =
+        all.products && !all.products->map.fills() ? &all.products->map : nullptr;
+    auto const& set = map != nullptr ? all.paving : searched;
 
     measurement_ranking result;
     result.explained = all.verdict;
-    result.coordinates = all.products ? all.products->map.side_names() : problem.choice.unknown;
+    result.coordinates =
+        all.products && map == nullptr ? all.products->map.side_names() : problem.choice.unknown;
     result.volume = {set.inner_volume().lower(), set.outer_volume().upper()};
     result.integrations = all.integrations;
     result.complete = true;
-    if (!set.has_outer()) groups.clear();
+    if (all.verdict == verdict::inconsistent) groups.clear();
     std::vector<box> starts;
     if (all.guess) {
         for (std::size_t e = 0; e < all.guess->starts.size(); ++e)
@@ -123,13 +142,16 @@ SIVID_DECL measurement_ranking rank_measurements(identification_problem const& p
         search.boxes = options.boxes;
         search.keep_outside = false;
         search.keep_going = own;
-        double const least = set.outer_volume().upper(), most = set.inner_volume().lower();
+        double const least = searched.outer_volume().upper(),
+                     most = searched.inner_volume().lower();
         search.progress = [&](paving_progress const& now) {
             return !(most > 0) ||
                    !close({1 + now.inner / least, std::max(1.0, 1 + now.outer / most)});
         };
         auto const more = invert(difference, posed.prior, search);
-        worth.growth = decision_detail::growth_of(set, more.paving);
+        worth.growth = decision_detail::growth_of(
+            set, map != nullptr ? decision_detail::reached_of(more.paving, *map, problem.prior)
+                                : more.paving);
         worth.boxes = more.tested;
         result.integrations += difference.integrations();
         result.complete = result.complete && close(worth.growth);

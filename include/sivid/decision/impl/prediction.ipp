@@ -57,7 +57,8 @@ public:
         }
         prediction result;
         result.times = cover_->times();
-        result.excess = left.largest;
+        // Of what no parameter may reach nothing is known that is.
+        if (!problem_.reached) result.excess = left.largest;
         sharpen();
         collect(result);
         result.parts = parts_.size();

@@ -111,8 +111,22 @@ public:
 
     /// Whether a parameter of the original problem is a side or stands in one.
     [[nodiscard]] bool acts(std::size_t j) const {
-        return std::any_of(sides_.begin(), sides_.end(), [j](side const& s) {
-            return s.product ? s.product->has(j) : s.parameter == j;
+        return std::any_of(sides_.begin(), sides_.end(),
+                           [j](side const& s) { return stands_in(j, s); });
+    }
+
+    /// Whether parameters of the original prior reach every point of the reduced one, but for
+    /// rounding: products that share a factor cannot be chosen independently.
+    [[nodiscard]] bool fills() const {
+        return std::none_of(sides_.begin(), sides_.end(), [this](side const& s) {
+            if (!s.product) return false;
+            for (std::size_t j = 0; j < s.product->exponents.size(); ++j) {
+                if (s.product->has(j) &&
+                    std::count_if(sides_.begin(), sides_.end(),
+                                  [j](side const& other) { return stands_in(j, other); }) > 1)
+                    return true;
+            }
+            return false;
         });
     }
 
@@ -204,6 +218,10 @@ public:
     }
 
 private:
+    [[nodiscard]] static bool stands_in(std::size_t j, side const& s) {
+        return s.product ? s.product->has(j) : s.parameter == j;
+    }
+
     identification_problem problem_;
     std::vector<side> sides_;
 };

@@ -335,6 +335,8 @@ predict_from(identification_problem const& data, stored_identification const& st
             for (auto const& row : stored.products->rows) {
                 if (!io_detail::is_excluded(row)) problem.sets.push_back(extended(row.set));
             }
+            if (share_a_factor(rebuilt))
+                problem.reached = reached_within(rebuilt, asked.prior, problem.sets, 1000);
             auto const own = static_cast<std::ptrdiff_t>(stored.products->sides.size());
             search->use({rebuilt.sides.begin(), rebuilt.sides.begin() + own},
                         {rebuilt.pivots.begin(), rebuilt.pivots.begin() + own});

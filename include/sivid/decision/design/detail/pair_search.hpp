@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -136,15 +137,33 @@ private:
             return;
         }
         auto const v = of_first().cover.look(whole);
+        auto const attained = reached_of(whole);
         for (auto const y : goals) {
-            auto const width = traits::sub(traits::point(v.high[y]), traits::point(v.low[y]));
-            auto const rest = traits::mul(traits::point(4.0), traits::point(v.rest[y]));
+            auto const width_in = [y](motion_cover::view const& of) {
+                return traits::sub(traits::point(of.high[y]), traits::point(of.low[y]));
+            };
             promised_width g;
-            g.most = upper(width);
-            g.before = std::max(0.0, lower(traits::sub(width, rest)));
+            g.most = upper(width_in(v));
+            if (attained) {
+                auto const rest = traits::mul(traits::point(4.0), traits::point(attained->rest[y]));
+                g.before = std::max(0.0, lower(traits::sub(width_in(*attained), rest)));
+            }
             g.after = g.most;
             result_.goals.push_back(g);
         }
+    }
+    /// Bounds over what is known to be reached of the whole; nothing where nothing is.
+    [[nodiscard]] std::optional<motion_cover::view>
+    reached_of(motion_cover::part const& whole) const {
+        auto const& m = of_first();
+        if (!m.problem.reached) return m.cover.look(whole);
+        if (m.problem.reached->empty()) return std::nullopt;
+        auto there = m.problem;
+        there.sets = *there.reached;
+        motion_cover const cover(there, m.outputs, m.cover.times(), options_.run);
+        auto part = cover.whole();
+        part.known = whole.known;
+        return cover.look(part);
     }
 
     /// What is measured already says of a part's parameters, once for each integration.

@@ -46,7 +46,7 @@ struct promise_options {
 
 /// How far the values of a goal lie apart.
 struct promised_width {
-    double before = 0; ///< two parameters of the sets differ by at least this,
+    double before = 0; ///< two parameters of the sets, that are reached, differ by at least this,
     double most = 0;   ///< and none by more than this;
     /// and whatever the experiment shows, those that explain it by no more than this.
     double after = std::numeric_limits<double>::infinity();

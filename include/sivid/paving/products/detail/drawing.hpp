@@ -41,6 +41,21 @@ inline subpaving drawn(preimage_test& test, reduction const& map, box const& pri
     return result;
 }
 
+/// The volumes, in the original prior, of what a paving of the reduced one proves inside, and of
+/// all that it leaves.
+inline std::pair<interval, interval> preimage_volumes(reduction const& map,
+                                                      subpaving const& reduced, box const& prior) {
+    std::vector<box> inside, left;
+    for (auto const& b : reduced.boxes()) {
+        if (b.verdict == box_verdict::outside) continue;
+        left.push_back(b.set);
+        if (b.verdict == box_verdict::inside) inside.push_back(b.set);
+    }
+    preimage_volume const volume(map, prior);
+    auto const cells = volume_cells(left.size());
+    return {volume(inside, cells), volume(left, cells)};
+}
+
 /// Draws the paving of a reduced prior in the original one, and measures it there.
 /// @param reduced  covers the reduced prior, outside boxes kept
 /// @param boxes    tested to draw it
@@ -56,15 +71,8 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     drawing.resume = nullptr;
     drawing.proof_bytes = 0;
     result.paving = drawn(test, map, prior, drawing);
-    std::vector<box> inside, left;
-    for (auto const& b : reduced.boxes()) {
-        if (b.verdict == box_verdict::outside) continue;
-        left.push_back(b.set);
-        if (b.verdict == box_verdict::inside) inside.push_back(b.set);
-    }
-    preimage_volume const volume(map, prior);
-    auto const cells = volume_cells(left.size());
-    result.paving.set_volumes(volume(inside, cells), volume(left, cells));
+    auto const [inner, outer] = preimage_volumes(map, reduced, prior);
+    result.paving.set_volumes(inner, outer);
     result.volumes = volume_source::preimage;
     result.products.emplace(product_paving{map, reduced});
     result.hull = result.paving.outer_hull();

@@ -111,6 +111,88 @@ template <class I>
     return result;
 }
 
+/// Whether a parameter is a factor of several sides: parameters reach only some points of the box
+/// of their ranges then.
+[[nodiscard]] inline bool share_a_factor(stored_products const& products) {
+    std::vector<bool> used;
+    for (auto const& side : products.sides) {
+        auto const& exponents = side.exponents();
+        used.resize(exponents.size(), false);
+        for (std::size_t j = 0; j < exponents.size(); ++j) {
+            if (exponents[j] == 0) continue;
+            if (used[j]) return true;
+            used[j] = true;
+        }
+    }
+    return false;
+}
+
+namespace io_detail {
+
+/// Whether parameters of a prior reach a box of products.
+enum class reach { all, some, none };
+
+/// @guarantee  all: with some of the factors as they are, the pivots reach each of its points;
+///             none: no parameter has its products there
+[[nodiscard]] inline reach reach_of(stored_products const& products, box near, box const& r) {
+    using traits = interval_traits<interval>;
+    auto const prior = near;
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        auto const& exponents = products.sides[k].exponents();
+        for (std::size_t j = 0; j < near.size(); ++j) {
+            if (std::abs(exponents[j]) != 1) continue;
+            auto const others = products.sides[k].without(j).over(near);
+            if (!others) continue;
+            bool undefined = false;
+            auto const allowed = exponents[j] == 1 ? traits::div(r[k], *others, undefined)
+                                                   : traits::div(*others, r[k], undefined);
+            if (undefined) continue; // 0 among the divisors excludes nothing
+            near[j] = traits::intersect(near[j], allowed);
+            if (is_empty(near[j])) return reach::none;
+        }
+    }
+    auto const factors = point_box(mid(near));
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        auto const pivot = products.pivots[k];
+        auto const others = products.sides[k].without(pivot).over(factors);
+        bool undefined = !others;
+        if (undefined || !subset(traits::div(r[k], *others, undefined), prior[pivot]) || undefined)
+            return reach::some;
+    }
+    return reach::all;
+}
+
+} // namespace io_detail
+
+/// Boxes within boxes of products, of which parameters of a prior reach every point: as many as
+/// halving finds.
+/// @given  nothing in `products` is malformed
+/// @param tested  boxes, at most so many more than there are
+[[nodiscard]] inline std::vector<box> reached_within(stored_products const& products,
+                                                     box const& prior, std::vector<box> boxes,
+                                                     std::size_t tested) {
+    std::vector<box> result;
+    tested += boxes.size();
+    for (std::size_t at = 0; at < boxes.size(); ++at) {
+        auto const r = boxes[at]; // a copy: there will be more
+        auto const found = io_detail::reach_of(products, prior, r);
+        if (found == io_detail::reach::all) result.push_back(r);
+        if (found != io_detail::reach::some || boxes.size() + 2 > tested) continue;
+        std::size_t widest = 0;
+        double most = 0;
+        for (std::size_t k = 0; k < r.size(); ++k) {
+            double const share = width(r[k]) / width(products.problem.prior[k]);
+            if (share > most) widest = k, most = share;
+        }
+        double const middle = mid(r[widest]);
+        if (!(r[widest].lower() < middle && middle < r[widest].upper())) continue;
+        auto const [low, high] = bisect(r, widest, middle);
+        boxes.push_back(low);
+        boxes.push_back(high);
+    }
+    return result;
+}
+
 } // namespace sivid
 
 #endif // SIVID_VERIFIER_CLAIM_DETAIL_STORED_PRODUCTS_HPP
