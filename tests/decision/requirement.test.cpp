@@ -65,6 +65,7 @@ TEST_CASE("operators bind as documented") {
     CHECK(read("always x0 > 1 and x1 > 0").parts.back().what == kind::conjunction);
     CHECK(read("x0 > 1 and x1 > 0 until x0 > 3").parts.back().what == kind::conjunction);
     CHECK(read("x0 > 1 implies x1 > 0").parts.back().what == kind::disjunction);
+    CHECK(read("x0 > 1 or x1 > 0 provided x0 > 2").parts.back().what == kind::provided);
     CHECK(read("1 < x0 <= 3").parts.back().what == kind::conjunction);
     CHECK(read("-x0^2 < -p0*2+1").margins.size() == 1);
 }
@@ -116,6 +117,8 @@ TEST_CASE("errors name place and remedy") {
                           {"foo(x0) > 1", "unknown function 'foo'"},
                           {"measured(x0) > 1", "no channel"},
                           {"x0 > 1 2", "nothing can follow"},
+                          {"x0 > 1 provided x1", "provided needs something that holds"},
+                          {"(x0 > 1 provided x1 > 0)", "')' is missing"},
                           {"2x0 > 1", "no number"},
                           {"x0 in 3", "[lower, upper]"},
                           {"max(x0) > 1", "two numbers"},
@@ -152,7 +155,8 @@ TEST_CASE("any text ends in a requirement or an error") {
         "in",     "measured(",  "sqrt(", "\xff", "[0, 1]", "x0 > 1", "(x1 < 2)"};
     std::vector<std::string> const good{"eventually(abs(x1) < 0.01) and x0 at end in [3, 7]",
                                         "always[1, 4] eventually[0.5, 2] x0 > 1",
-                                        "x0 > 1 until[1, end] x1 > 0 or max(x0, x1)^2 < sqrt(p0)"};
+                                        "x0 > 1 until[1, end] x1 > 0 or max(x0, x1)^2 < sqrt(p0)",
+                                        "x0 > 1 provided always(x1 < 2)"};
     std::size_t accepted = 0;
     for (int n = 0; n < 3000; ++n) {
         std::string text;

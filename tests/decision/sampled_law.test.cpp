@@ -5,6 +5,7 @@
 #include "support/sweep.hpp"
 
 #include <sivid/decision/control_law.hpp>
+#include <sivid/decision/gain_search.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/verification.hpp>
 #include <sivid/model/closed_loop.hpp>
@@ -54,10 +55,10 @@ struct loop {
         problem.inputs = closed.inputs(open);
         problem.end = end;
     }
-    [[nodiscard]] sivid::requirement_answer answer(std::string const& text) {
+    [[nodiscard]] sivid::verification verified(std::string const& text, double seconds = 10) const {
         auto p = problem;
         auto const what = sivid::parse_requirement(closed.with_slews(text), p.model, end);
-        return sivid::verify(p, what, all_feasible(p)).answer;
+        return sivid::verify(p, what, all_feasible(p), {.seconds = seconds});
     }
 };
 
@@ -103,7 +104,7 @@ void attack(std::string const& text, double slew, std::function<double(double)> 
     loop l(text, slew);
     REQUIRE(l.closed.slews.size() == 1);
     CAPTURE(text);
-    REQUIRE(l.answer("x0 < 2") == sivid::requirement_answer::proved); // the slew is kept
+    REQUIRE(l.verified("x0 < 2").answer == sivid::requirement_answer::proved); // the slew is kept
     auto const tubes = sivid::predict(l.problem, {.cells = 50});
     REQUIRE(tubes.complete);
     auto const& tube = tubes.states[0];
@@ -155,9 +156,46 @@ TEST_CASE("sampled, late and noisy loops move within the tubes of the closed mod
 
 TEST_CASE("a limit of the slew that is not kept proves nothing") {
     loop fast("u0 = 3 * (1 - measured(y0))", 2); // u0' = -3 x0', 9 at the begin
-    CHECK(fast.answer("x0 < 2") == sivid::requirement_answer::refuted);
     loop just("u0 = 3 * (1 - measured(y0))", 8);
-    CHECK(just.answer("x0 < 2") != sivid::requirement_answer::proved);
+    for (auto* l : {&fast, &just}) { // what holds, and what does not: nothing is known
+        CHECK(l->verified("x0 < 2", 1).answer == sivid::requirement_answer::open);
+        CHECK(l->verified("x0 > 2", 1).answer == sivid::requirement_answer::open);
+    }
+    auto const says = fast.verified("x0 < 2", 1);
+    REQUIRE_FALSE(says.open.empty());
+    CHECK(says.open.front().why == sivid::open_reason::not_kept);
+    CHECK(says.found.low < -1e300);
+    CHECK(says.found.high > 1e300);
+    loop kept("u0 = 3 * (1 - measured(y0))", 12);
+    CHECK(kept.verified("x0 > 2").answer == sivid::requirement_answer::refuted);
+}
+
+TEST_CASE("gains whose slew is not kept are not excluded") {
+    for (double const slew : {0.5, 20.0}) {
+        sivid::closed_loop l(plant());
+        l.sampled(0.01, 0);
+        l.slew("u0", slew);
+        l.gain("K", "1");
+        sivid::command_by("u0 = K * (1 - measured(y0))", l, end);
+        auto const closed = l.finish();
+        sivid::prediction_problem p;
+        p.model = closed.model;
+        p.choice.unknown = {"p0", "K"};
+        p.sets = {{between(0.5, 1), between(2, 3)}};
+        p.initial = closed.initial({sivid::interval(0.0)}, {}, {});
+        p.inputs = closed.inputs({});
+        p.end = end;
+        bool const kept = slew > 1;
+        for (bool const holds : {true, false}) { // x0 stays below 1
+            auto const what = sivid::parse_requirement(
+                closed.with_slews(holds ? "always(x0 < 2)" : "x0 at end > 2"), p.model, end);
+            auto const found =
+                sivid::find_gains(p, {"K"}, what, all_feasible(p), {{.seconds = 2}, 200, 1e-2});
+            CHECK(found.some_proved() == (kept && holds));
+            CHECK(found.none_exists() == (kept && !holds));
+            CHECK(found.unknown == !kept);
+        }
+    }
 }
 
 TEST_CASE("a channel of the model that has the name of a rate does not stand for it") {

@@ -36,6 +36,8 @@ struct gain_set {
     std::optional<std::vector<double>> suggested{};
     truth found{};   ///< with these, for all parameters and starts
     box tolerance{}; ///< around these, all of it proved as well; empty where no box was
+    /// Of some gains nothing can be known, as what the requirement is provided for does not hold.
+    bool unknown = false;
     std::size_t parts = 0, integrations = 0;
     double seconds = 0;
 

@@ -32,12 +32,16 @@ enum class requirement_answer {
 enum class open_reason {
     undecided,    ///< its bounds hold both; more time, smaller boxes
     not_enclosed, ///< its motions were not enclosed up to the end
-    infeasible    ///< all of it violates, but none of its parameters was proved feasible
+    infeasible,   ///< all of it violates, but none of its parameters was proved feasible
+    /// What the requirement is provided for is not shown to hold, and so nothing is known.
+    not_kept
 };
 [[nodiscard]] constexpr std::string_view to_string(open_reason r) {
     return r == open_reason::undecided      ? "not decided within the budget"
            : r == open_reason::not_enclosed ? "not enclosed up to the end"
-                                            : "violated, and no parameter in it is proved feasible";
+           : r == open_reason::not_kept
+               ? "unknown, since what it is provided for is not kept, such as the slew limit"
+               : "violated, and no parameter in it is proved feasible";
 }
 
 /// A box of parameters and starts that is neither proved nor refuted.

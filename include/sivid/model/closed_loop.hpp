@@ -35,7 +35,7 @@ struct closed_model {
     };
     std::vector<slew> slews;
 
-    /// A requirement, and besides what has to hold for a sampled law.
+    /// A requirement, provided that what has to hold for a sampled law does.
     [[nodiscard]] std::string with_slews(std::string const& requirement) const;
 
     /// @param open  the signals of all inputs of the open model; those of commanded ones are unused

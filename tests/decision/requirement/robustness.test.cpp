@@ -80,6 +80,7 @@ private:
         case kind::negation:
             return -at(p.first, k);
         case kind::conjunction:
+        case kind::provided:
             return std::min(at(p.first, k), at(p.second, k));
         case kind::disjunction:
             return std::max(at(p.first, k), at(p.second, k));
@@ -129,6 +130,29 @@ TEST_CASE("a margin is certain, possible or neither") {
         CHECK_FALSE(nothing.refuted());
         CHECK(nothing.low == -infinity);
         CHECK(nothing.high == infinity);
+    }
+}
+
+TEST_CASE("nothing is refuted where what it is provided for is not proved") {
+    struct known {
+        double low, high;
+    };
+    known const holds{1, 2}, fails{-2, -1}, open{-1, 1};
+    auto const asked = read("x0 > 0 provided always(x1 > 0)", 1);
+    for (auto const& first : {holds, fails, open}) {
+        for (auto const& second : {holds, fails, open}) {
+            sivid::margin_bounds bounds{{0, 1}, {}, {}};
+            for (auto const* side : {&first, &second}) {
+                bounds.low.push_back(std::vector<double>(3, side->low));
+                bounds.high.push_back(std::vector<double>(3, side->high));
+            }
+            auto const says = sivid::evaluate(asked, bounds);
+            bool const kept = second.low > 0;
+            CHECK(says.kept == kept);
+            CHECK(says.proved() == (kept && first.low > 0));
+            CHECK(says.refuted() == (kept && first.high < 0));
+            CHECK(says.hopeless() == (first.high < 0 || second.high < 0));
+        }
     }
 }
 

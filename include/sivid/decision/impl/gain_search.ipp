@@ -191,6 +191,7 @@ SIVID_DECL gain_set find_gains(prediction_problem const& problem,
         result.tolerance = decision_detail::tolerance_of(test, *best.gain(), ranges);
     }
     result.against = test.against();
+    result.unknown = test.unknown();
     result.parts = test.parts();
     result.integrations = test.integrations();
     result.seconds =

@@ -123,16 +123,18 @@ private:
     }
 
     void remember(item const& i) {
-        note(i.says.found);
-        open_box box{i.what.parameters, i.what.initial, i.says.found, open_reason::undecided,
+        auto found = i.says.found;
+        if (!found.kept) found.high = -(found.low = -std::numeric_limits<double>::infinity());
+        note(found);
+        open_box box{i.what.parameters, i.what.initial, found, open_reason::undecided,
                      i.says.reached};
         for (std::size_t j = 0; j < around_.size(); ++j) {
             if (slim_.idle[j]) box.parameters[j] = around_[j];
         }
         if (i.judged && i.says.reached < problem_.end)
             box.why = open_reason::not_enclosed;
-        else if (i.says.found.refuted())
-            box.why = open_reason::infeasible;
+        else if (found.hopeless())
+            box.why = found.kept ? open_reason::infeasible : open_reason::not_kept;
         left_.push_back(std::move(box));
     }
 

@@ -24,9 +24,12 @@ struct truth {
     bool certain = false;                                  ///< it holds for all of them
     bool possible = true;                                  ///< it may hold for one of them
     decisive_place low_from{}, high_from{};
+    bool kept = true; ///< what it is provided for is proved of all of them, or nothing is known
 
     [[nodiscard]] bool proved() const { return certain; }
-    [[nodiscard]] bool refuted() const { return !possible; }
+    [[nodiscard]] bool refuted() const { return !possible && kept; }
+    /// For none of them it, and what it is provided for, will be proved.
+    [[nodiscard]] bool hopeless() const { return !possible; }
 };
 
 /// A margin within [low, high] at all instants of a segment: what a comparison says there.

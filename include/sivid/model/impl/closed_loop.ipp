@@ -233,9 +233,10 @@ SIVID_DECL bool closed_loop::needs_hold(std::size_t input, node_id command) cons
 }
 
 SIVID_DECL std::string closed_model::with_slews(std::string const& requirement) const {
-    auto text = slews.empty() ? requirement : "(" + requirement + ")";
+    auto text = requirement;
     for (auto const& s : slews) {
-        text += " and always(abs(measured(" + s.channel + ")) < " + nearest_text(s.limit) + ")";
+        text +=
+            " provided always(abs(measured(" + s.channel + ")) < " + nearest_text(s.limit) + ")";
     }
     return text;
 }

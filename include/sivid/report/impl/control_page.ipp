@@ -81,6 +81,9 @@ SIVID_DECL std::string gain_sentence(gain_set const& found) {
     if (!found.some_proved())
         return "No gain is proved, and not all are excluded (" + why + "): at least " + excluded +
                " of the ranges are." +
+               (found.unknown ? " Of some gains nothing is known, since what the requirement is "
+                                "provided for is not kept, such as the slew limit."
+                              : "") +
                (found.against.empty() ? " No parameter is known that violates it." : "");
     std::string text = "Proved for every parameter that the identification leaves and every start "
                        "of the scenario, at every instant: ";

@@ -137,10 +137,13 @@ public:
             }
             // A part that violates throughout is not proved by halving.
             auto const leaves = [this](open_parts::item const& i) {
-                return i.says.found.refuted() && !problem_.holds_all(i.what) &&
+                return i.says.found.hopeless() && !problem_.holds_all(i.what) &&
                        data_.refute(i.what);
             };
-            if (worst.says.found.refuted() && !leaves(worst)) break;
+            if (worst.says.found.hopeless() && !leaves(worst)) {
+                unknown_ = unknown_ || !worst.says.found.kept;
+                break;
+            }
             bool const lost = worst.says.reached < motions_->cover().times().back();
             if (!limit_() || !any || round == (is_smallest(gains) ? 8 : lost ? 1 : 3)) break;
             // What a gain decides is left to the search, but for what is integrated side by side.
@@ -169,6 +172,8 @@ public:
 
     /// Motions that violate, one per feasible parameter and start.
     [[nodiscard]] std::vector<violating_motion> const& against() const { return against_; }
+    /// Of some gains nothing can be known: what the requirement is provided for does not hold.
+    [[nodiscard]] bool unknown() const { return unknown_; }
     [[nodiscard]] std::size_t parts() const { return parts_; }
     [[nodiscard]] std::size_t integrations() const {
         auto n = earlier_ + motions_->cover().integrations() + witness_.integrations();
@@ -331,6 +336,7 @@ private:
     std::vector<std::unique_ptr<point>> points_; ///< as `against_`
     std::vector<violating_motion> against_;
     std::size_t asked_ = 0; ///< for points
+    bool unknown_ = false;
     int refinements_ = 0;
     std::size_t parts_ = 0, earlier_ = 0;
 };

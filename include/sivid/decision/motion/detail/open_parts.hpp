@@ -135,7 +135,7 @@ public:
     }
     /// Whether the contrary of the aim holds for all of it.
     [[nodiscard]] bool is_hopeless(item const& i) const {
-        return aim_ == aim::proof ? i.says.found.refuted() : i.says.found.proved();
+        return aim_ == aim::proof ? i.says.found.hopeless() : i.says.found.proved();
     }
 
 private:

@@ -30,11 +30,18 @@ public:
     }
 
     [[nodiscard]] requirement read() {
-        auto const all = implication();
+        auto all = implication();
         need_formula(all, "a requirement");
+        for (auto position = words_.position(); words_.take("provided");
+             position = words_.position()) {
+            auto const condition = implication();
+            need_formula(condition, "provided");
+            all = join(kind::provided, all, condition, position);
+        }
         if (!words_.at_end()) {
-            words_.fail("nothing can follow here",
-                        "join requirements by and, or, implies, until; mind the brackets");
+            words_.fail(
+                "nothing can follow here",
+                "join requirements by and, or, implies, until, provided; mind the brackets");
         }
         close(all.part);
         ask(result_.parts.size() - 1, 0, 0);
@@ -293,6 +300,7 @@ private:
                 break;
             case kind::conjunction:
             case kind::disjunction:
+            case kind::provided:
                 open.push_back({p.first, q.from, q.to});
                 open.push_back({p.second, q.from, q.to});
                 break;

@@ -20,6 +20,7 @@ namespace sivid {
 ///     eventually(abs(u) < 0.01) and x at end in [3, 7]
 ///     u > 0.5 until[0, 4] x >= 2
 ///
+///   requirement formula | requirement provided formula
 ///   formula     comparison | (formula) | not f | f and f | f or f | f implies f
 ///               | always[a, b] f | eventually[a, b] f | f until[a, b] f | f at T
 ///   comparison  expressions with < <= > >= (also a < b < c), or e in [a, b]; `e at T < c`
@@ -30,6 +31,9 @@ namespace sivid {
 /// Windows [a, b] count from the time at which their formula is asked, the outermost from 0;
 /// without one they reach to the end, which may be written `end`. Times T are those of the motion.
 /// From the tightest: at, comparisons, not / always / eventually, until, and, or, implies.
+///   `f provided g`: nothing is known of a motion unless g is proved for it. It is proved where
+///   both
+/// are, and refuted only where f is and g is proved.
 ///   A formula holds at an instant as usual; time is dense: `always` speaks of every instant. `f
 /// until g`: g holds at some t' in the window, and f from now until just before t'.
 ///   Robustness: that of a < b is b - a; min for and and always, max for or and eventually, the
@@ -45,7 +49,8 @@ struct requirement {
         always,
         eventually,
         until,
-        at
+        at,
+        provided
     };
     /// An operation of the formula.
     struct part {

@@ -93,6 +93,15 @@ public:
             }
             break;
         }
+        case kind::provided: {
+            result = (*this)(p.first, first, last);
+            auto const condition = (*this)(p.second, first, last);
+            for (std::size_t k = 0; k < result.size(); ++k) {
+                both(result[k], condition[k]);
+                result[k].kept = result[k].kept && condition[k].certain;
+            }
+            break;
+        }
         case kind::at: {
             auto const s = segment_at(p.from);
             auto const there = (*this)(p.first, s, s).front();
