@@ -308,6 +308,11 @@ private:
             loop.gain(name, "");
         }
         sivid::command_by(c.law, loop, request_.end);
+        for (auto const& [name, bound] : sensors_) {
+            if (!loop.reads(name))
+                throw std::invalid_argument("--sensor " + name +
+                                            ": the law does not read measured(" + name + ")");
+        }
         closed_ = loop.finish();
         require_used_gains();
         for (auto const& [name, range] : gains_) request_.set[name] = range;

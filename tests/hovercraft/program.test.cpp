@@ -876,10 +876,10 @@ TEST_CASE("control finds the gains of a law that are proved for all that the dat
     std::vector<std::string> const sampled{
         "--law", "W = 83; delta = 0.8 * (psi - 0.5) + 0.4 * r", "--sampled", "0.01", "--delay",
         "0.005"};
-    auto const on_samples = [&](char const* slew) {
+    auto const on_samples = [&](char const* slew, char const* budget = "100") {
         std::vector<std::string> all{"verify",   result,      "--scenario",
                                      "S3",       "--require", "psi at end in [0.3, 0.7]",
-                                     "--budget", "100"};
+                                     "--budget", budget};
         all.insert(all.end(), sampled.begin(), sampled.end());
         if (*slew != 0) all.insert(all.end(), {"--slew", slew});
         return run(all);
@@ -888,7 +888,7 @@ TEST_CASE("control finds the gains of a law that are proved for all that the dat
     CHECK(kept.code == 0);
     CHECK_THAT(kept.out, ContainsSubstring("delta.slew") &&
                              ContainsSubstring("on samples at most 0.01 s apart"));
-    CHECK(on_samples("delta=0.3").code == 5);
+    CHECK(on_samples("delta=0.3", "2").code == 3); // it is not kept: nothing is known
     CHECK_THAT(on_samples("").err, ContainsSubstring("'delta' is not limited"));
 
     auto const refused = [&](std::vector<std::string> more, char const* words) {
@@ -906,6 +906,8 @@ TEST_CASE("control finds the gains of a law that are proved for all that the dat
     refused({"--law", "W = K *; delta = 0", "--gain", "K=0:1"}, "law: character 8");
     refused({"--law", "W = K * W; delta = 0", "--gain", "K=0:1"}, "algebraic loop");
     refused({"--law", "W = K; delta = 0", "--gain", "K=0:1", "--sensor", "z=1"}, "z");
+    refused({"--law", "W = K; delta = psi", "--gain", "K=0:1", "--sensor", "psi=0.01"},
+            "--sensor psi: the law does not read measured(psi)");
     refused({"--law", "W = K; delta = 0", "--gain", "K=0:1", "--sensor", "u=0:1"},
             "one number is needed");
     refused({"--law", "W = K; delta = 0", "--gain", "K=nan"}, "not a decimal number");

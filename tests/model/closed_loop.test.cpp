@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -111,6 +112,12 @@ TEST_CASE("a sensor's error is an input that may do anything within its bound") 
     law.command("u0", -law.measured("y0") - law.measured("y0") + law.measured("y1"));
     CHECK_THROWS_WITH(law.sensor("y0", 0.5), ContainsSubstring("was read before"));
     CHECK_THROWS_WITH(law.sensor("y1", -1), ContainsSubstring("0 or more"));
+    CHECK(law.reads("y0"));
+    sivid::closed_loop blind(cart());
+    blind.sensor("y0", 0.25);
+    blind.command("u0", -blind.state("x0")); // the state is no reading
+    CHECK_FALSE(blind.reads("y0"));
+    CHECK_THROWS_AS(blind.reads("z"), std::invalid_argument);
     auto const closed = law.finish();
     REQUIRE(closed.own_inputs.size() == 1); // one error, however often it is read; none of y1
     CHECK(closed.model.about.inputs.back().name == "y0.error");

@@ -107,7 +107,7 @@ TEST_CASE("the bundled story ends with a robot that obeys laws that were proved"
     CHECK_THAT(tale.text, ContainsSubstring("quay, straight_run: gains are proved"));
     CHECK_THAT(tale.text, ContainsSubstring("S3, straight_run: gains are proved"));
     CHECK_THAT(tale.text, ContainsSubstring("abs(u) < 0.05 at the end, by 0.0"));
-    CHECK_THAT(tale.text, ContainsSubstring("psi in [0.35, 0.65] at the end, by 0."));
+    CHECK_THAT(tale.text, ContainsSubstring("psi in [0.25, 0.75] at the end, by 0."));
     CHECK_THAT(tale.text, ContainsSubstring("abs(delta) < 0.6 always, by 0."));
     CHECK_THAT(tale.text, ContainsSubstring("the gap shrinks by"));
     CHECK(fs::file_size(folder.path() / "story" / "story.html") > 100000);

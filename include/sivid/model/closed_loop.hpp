@@ -70,6 +70,8 @@ public:
     [[nodiscard]] expression input(std::string_view name);
     /// What a sensor shows: the channel, off by any error within the bound that `sensor` stated.
     [[nodiscard]] expression measured(std::string_view channel);
+    /// Whether somebody asked for what the sensor shows: else its error is of no matter.
+    [[nodiscard]] bool reads(std::string_view channel) const;
 
     /// From here on the channel is measured with an error of at most `bound`, which may change at
     /// will from one instant to the next.

@@ -137,6 +137,10 @@ SIVID_DECL expression closed_loop::measured(std::string_view channel) {
     return value;
 }
 
+SIVID_DECL bool closed_loop::reads(std::string_view channel) const {
+    return shown_.count(index_of(open_.about.channels, std::string(channel), "channel")) != 0;
+}
+
 SIVID_DECL expression closed_loop::gain(std::string const& name, std::string const& unit,
                                         decimal nominal) {
     auto const taken = [&](auto const& items) {
