@@ -91,7 +91,8 @@ inline void add_design(CLI::App& s, decision_command& c) {
         ->check(number_between(0.0, 1e9));
     s.footer(
         "Exit codes: 0 an experiment with that promise is found, 2 bad input, 3 none is found, "
-        "or one that promises less, 5 no experiment can (proved).");
+        "or one that promises less, 5 no experiment can, as the equations hide the goal and the "
+        "prior does not help (proved).");
 }
 
 } // namespace detail

@@ -95,6 +95,16 @@ inline std::unique_ptr<design_side> rival_of(design_side const& one,
     return two;
 }
 
+/// How much of its width a hidden goal keeps, whatever is measured: where the witness is proved to
+/// explain the data, and the scenario has their constants.
+inline double untold_share_of(decision_task const& task, sivid::stored_prediction const& about,
+                              sivid::design_goal const& goal, decision_command const& c) {
+    auto const witness = task.witness(about);
+    bool const proved =
+        witness && c.set.empty() && about.feasible.proved && about.feasible.proved(*witness);
+    return proved ? sivid::untold_share(about.problem, about.direct, *witness, goal) : 0;
+}
+
 } // namespace detail
 
 /// `design`: prints the experiment; with `out`, writes design.html, design.json and scenario.json.
@@ -120,10 +130,11 @@ inline int run_design(sivid::recorded_model const& open,
     }
     for (auto const& g : answer.goals) {
         auto const instead = sivid::hidden_behind(model, about->direct.choice, g);
-        if (!instead) continue;
+        if (!instead || answer.impossible) continue;
         answer.hidden = g.text;
         answer.instead = *instead;
-        break;
+        answer.impossible =
+            !answer.jointly && detail::untold_share_of(task, *about, g, c) > c.target;
     }
     if (!c.out.empty()) prepare_folder(c.out);
     watch_interrupts();
@@ -132,7 +143,7 @@ inline int run_design(sivid::recorded_model const& open,
     auto page = task.page_options();
     std::optional<sivid::prediction> tubes;
     std::optional<std::string> scenario;
-    if (answer.hidden.empty()) {
+    if (!answer.impossible) {
         auto const menu = sivid::manoeuvre_shapes(answer.varied, about->problem.inputs,
                                                   mid(about->problem.initial), about->problem.end);
         sivid::design_options options;
@@ -188,7 +199,7 @@ inline int run_design(sivid::recorded_model const& open,
                       c,
                       (c.out / "design.html").string() + " and design.json" +
                           (scenario ? ", scenario.json" : ""));
-    return !answer.hidden.empty() ? refuted : answer.met() ? done : undecided;
+    return answer.impossible ? refuted : answer.met() ? done : undecided;
 }
 
 /// @returns an exit code

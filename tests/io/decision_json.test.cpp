@@ -211,6 +211,8 @@ TEST_CASE("an experiment is written with what it promises, or with what hides it
     CHECK(read().at("answer").string() == "met");
     answer.hidden = "a";
     answer.instead = {"a*b"};
+    CHECK(read().at("answer").string() == "met");
+    answer.impossible = true;
     CHECK(read().at("answer").string() == "hidden");
     CHECK(read().at("instead").elements()[0].string() == "a*b");
 }

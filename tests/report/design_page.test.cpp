@@ -95,8 +95,12 @@ TEST_CASE("a page says what is not promised, or hidden") {
     hidden.answer.instead = {"p0*p1", "p0/p2"};
     auto const text = hidden.page();
     CHECK(markup_error(body_of(text)) == "");
-    CHECK_THAT(text, ContainsSubstring("No experiment tells p0"));
-    CHECK_THAT(text, ContainsSubstring("What can be told: p0*p1, p0/p2."));
+    CHECK_THAT(text, !ContainsSubstring("No experiment tells p0"));
+    CHECK_THAT(text, ContainsSubstring("What can be told: p0*p1, p0/p2. Data narrow it no further "
+                                       "than the others are known."));
+    hidden.answer.impossible = true;
+    CHECK_THAT(hidden.page(), ContainsSubstring("No experiment tells p0") &&
+                                  ContainsSubstring("Whatever is measured, it keeps more than"));
 }
 
 TEST_CASE("a page says whether two models are told apart") {

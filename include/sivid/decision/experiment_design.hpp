@@ -72,6 +72,8 @@ struct design_answer {
     /// A goal that the equations hide, and what can be told instead; empty for none.
     std::string hidden;
     std::vector<std::string> instead;
+    /// Whatever is measured, it keeps more than its target: nothing was sought.
+    bool impossible = false;
     experiment_design found;
 
     /// Every goal, or their box, keeps at most its share, proved.

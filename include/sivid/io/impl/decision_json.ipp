@@ -284,7 +284,7 @@ SIVID_DECL std::string design_json(stored_prediction const& about, design_answer
     io_detail::write_head(json, "sivid-design-1", about, options);
     auto const* const best = found.found.best();
     bool const goals = !found.goals.empty();
-    json.key("answer").string(!found.hidden.empty()      ? "hidden"
+    json.key("answer").string(found.impossible           ? "hidden"
                               : found.met()              ? "met"
                               : best != nullptr && goals ? "less"
                                                          : "open");

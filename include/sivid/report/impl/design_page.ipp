@@ -123,11 +123,21 @@ inline void add_tried(page& out, design_answer const& a) {
     out.add(t);
 }
 
+/// What the equations hide, and what can be told.
+inline std::string hidden_sentence(design_answer const& a) {
+    std::string text = "The equations contain " + a.hidden +
+                       " only together with other parameters, so that no input, no start and "
+                       "no measurement tells it apart from them (proved)";
+    for (std::size_t k = 0; k < a.instead.size(); ++k)
+        text += (k == 0 ? ". What can be told: " : ", ") + a.instead[k];
+    return text + ".";
+}
+
 } // namespace detail
 
 SIVID_DECL std::string design_headline(design_answer const& a) {
     auto const goals = detail::goal_texts(a);
-    if (!a.hidden.empty()) return "no experiment tells " + a.hidden;
+    if (a.impossible) return "no experiment tells " + a.hidden;
     if (a.goals.empty())
         return (a.met() ? "an experiment that tells " : "no proved experiment that tells ") +
                a.first + " from " + a.second + (a.met() ? " is found" : "");
@@ -137,13 +147,14 @@ SIVID_DECL std::string design_headline(design_answer const& a) {
 }
 
 SIVID_DECL std::string design_sentence(design_answer const& a) {
+    if (a.impossible)
+        return detail::hidden_sentence(a) + " Whatever is measured, it keeps more than " +
+               given_text(100 * a.target) + " % of the width that it has now (proved).";
     if (!a.hidden.empty()) {
-        std::string text = "The equations contain " + a.hidden +
-                           " only together with other parameters, so that no input, no start and "
-                           "no measurement tells it apart from them (proved)";
-        for (std::size_t k = 0; k < a.instead.size(); ++k)
-            text += (k == 0 ? ". What can be told: " : ", ") + a.instead[k];
-        return text + ".";
+        auto plain = a;
+        plain.hidden.clear();
+        return design_sentence(plain) + " " + detail::hidden_sentence(a) +
+               " Data narrow it no further than the others are known.";
     }
     auto const* const best = a.found.best();
     if (best == nullptr)
@@ -180,7 +191,7 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
               .title = detail::goal_texts(a),
               .lead = o.scenario + ", from " + o.dataset +
                       (a.limits.empty() ? std::string{} : ", within " + a.limits)}};
-    bool const hidden = !a.hidden.empty();
+    bool const hidden = a.impossible;
     auto headline = design_headline(a);
     headline.front() = static_cast<char>(std::toupper(headline.front()));
     out.banner(hidden    ? outcome::refuted

@@ -30,6 +30,33 @@ TEST_CASE("what the equations hide is said before anything is tried") {
     CHECK(tells("p1", {"p0", "p1"})); // the other one is known
 }
 
+TEST_CASE("a hidden goal keeps what its partners do not bound, and no more is said") {
+    // x' = -p1 p2 x: p1 p2 is told. Of (1, 1) the motion goes on with p2 = 1 / p1.
+    auto const share = [](sivid::interval const& p1, sivid::interval const& p2) {
+        sivid::prediction_problem p;
+        p.model = support::model_of(
+            {.states = 1, .constants = 3},
+            [](auto const&, auto const& x, auto const& c, auto const&) {
+                return std::vector{-(c[1] * c[2] * x[0]) - c[0]};
+            },
+            [](auto const&, auto const& x, auto const&, auto const&) { return x; });
+        p.choice.unknown = {"p0", "p1", "p2"};
+        p.sets = {{between(0, 1), p1, p2}};
+        auto const goal = sivid::parse_goal("p1", p.model);
+        CHECK(sivid::hidden_behind(p.model, p.choice, goal));
+        CHECK(sivid::untold_share(p, p, {0.5, 1, 1}, sivid::parse_goal("p0", p.model)) == 0);
+        return sivid::untold_share(p, p, {0.5, 1, 1}, goal);
+    };
+    double const all = share(between(0.5, 2), between(0.1, 10));
+    CHECK(all <= 1);
+    CHECK(all > 0.999);
+    double const little = share(between(0.5, 2), between(0.99, 1.01));
+    CHECK(little <= (1 / 0.99 - 1 / 1.01) / 1.5);
+    CHECK(little > 0.999 * (1 / 0.99 - 1 / 1.01) / 1.5);
+    CHECK(share(between(0.5, 2), sivid::interval(1.0)) < 1e-9);
+    CHECK(share(between(2, 3), between(0.1, 10)) == 0); // the point is not in the prior
+}
+
 TEST_CASE("all goals are what experiments can tell of all parameters") {
     auto p = driven_cart(4);
     auto const texts = [&](std::vector<std::string> const& unknown) {

@@ -3,6 +3,7 @@
 #define SIVID_DECISION_DESIGN_DETAIL_DESIGN_GOAL_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/decision/prediction_problem.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/model.hpp>
@@ -34,9 +35,22 @@ struct design_goal {
 /// @returns the products that can be told instead; nothing when the equations do not forbid it, or
 ///          the goal is no product of powers
 /// @throws std::invalid_argument  where all constants of the goal are known
-/// @guarantee  proved from the structure of the equations, for any experiment and start
+/// @guarantee  proved from the structure of the equations, for any experiment and start. What is
+///             known of the others bounds the goal all the same: `untold_share`
 [[nodiscard]] SIVID_DECL std::optional<std::vector<std::string>>
 hidden_behind(recorded_model const& model, parameter_choice const& choice, design_goal const& goal);
+
+/// How much of its width a hidden goal keeps, whatever is measured.
+///   A parameter is scaled along with others so that no product in the equations changes: as far as
+/// the prior allows, all of these explain whatever data it explains.
+/// @param left    what the data leave: its boxes bound the width that the goal has now
+/// @param direct  the prior of the parameters themselves; its constants have the values of the data
+/// @param point   of the prior, that explains the data
+/// @returns a share, rounded down; 0 where nothing is known to be kept
+[[nodiscard]] SIVID_DECL double untold_share(prediction_problem const& left,
+                                             prediction_problem const& direct,
+                                             std::vector<double> const& point,
+                                             design_goal const& goal);
 
 /// All that experiments can tell of the parameters: each that the equations do not hide, and of the
 /// others the products that can be told instead. As goals they are the sides of a box.
