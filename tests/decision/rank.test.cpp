@@ -191,11 +191,41 @@ TEST_CASE("what no equation carries to a channel has no effect on it") {
             CHECK(c.effects[j].acts == acts);
             if (!acts) CHECK(c.effects[j].high == 0);
         }
-        CHECK(c.effects[5].cannot_matter());
+        CHECK(c.effects[5].stays_below_error());
         CHECK(c.place_of(5).best == 4);
     }
     CHECK(found.overall(5).upper() == 0);
+    CHECK_FALSE(found.acts(5));
+    CHECK(found.acts(4));
     CHECK(found.combinations.entangled == std::vector<std::size_t>{1, 2});
+}
+
+TEST_CASE("measurements whose bounds have no width do not count, and are named") {
+    auto k = wavy(sivid::interval(2.0));
+    for (auto& e : k.problem.experiments) {
+        for (auto& m : e.measurements)
+            if (m.channel == 1)
+                m.bound = sivid::interval(mid(m.bound)); // p3 and p4 act there alone
+    }
+    auto const found = sivid::rank(k.problem, {.seconds = 0.2});
+    REQUIRE(found.channels.size() == 2);
+    for (auto const& c : found.channels) CHECK(c.channel == 0);
+    REQUIRE(found.exact.size() == 2);
+    CHECK(found.exact[0].channel == 1);
+    CHECK(found.exact[0].count > 0);
+    CHECK(found.exact[0].acts == std::vector<bool>{true, false, false, true, true, false});
+    CHECK(found.overall(3).upper() == 0);
+    CHECK(found.acts(3));
+    CHECK(found.moves_exact(3));
+    CHECK_FALSE(found.moves_exact(1));
+    // One that counts, and all others without any bound: they are moved by no error bound.
+    for (auto& m : k.problem.experiments[0].measurements)
+        if (m.channel == 1) m.bound = sivid::interval_traits<sivid::interval>::entire();
+    k.problem.experiments.resize(1);
+    auto const unbounded = sivid::rank(k.problem, {.seconds = 0.2});
+    CHECK(unbounded.exact.empty());
+    CHECK(unbounded.overall(3).upper() == 0);
+    CHECK(unbounded.acts(3));
 }
 
 TEST_CASE("a certified order is that of the true effects") {

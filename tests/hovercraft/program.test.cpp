@@ -624,7 +624,8 @@ TEST_CASE("rank bounds the effects on a data set and on a scenario") {
     // On a straight ride nothing is known of the three.
     auto const s = run({"rank", "--scenario", "S1", "--out", (folder.path() / "s1").string()});
     CHECK(s.code == 0);
-    CHECK_THAT(s.out, ContainsSubstring("Sg cannot matter") && !ContainsSubstring("without"));
+    CHECK_THAT(s.out,
+               ContainsSubstring("Sg alone moves no measurement") && !ContainsSubstring("without"));
     CHECK(run({"rank", h3, "--scenario", "S1", "--out", out.string()}).code == 2);
     CHECK(run({"rank", "--scenario", "S1", "--unknown", "nothing", "--out", out.string()}).code ==
           2);

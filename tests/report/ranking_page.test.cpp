@@ -7,6 +7,8 @@
 #include <sivid/report/ranking_page.hpp>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 using namespace sivid::report;
 using namespace sivid_tests;
@@ -34,6 +36,37 @@ TEST_CASE("a ranking shows a bar for what acts and says what cannot matter") {
     auto const open = ranking_page(problem, cut, {.dataset = "d"}).str();
     CHECK(markup_error(body_of(open)) == "");
     CHECK_THAT(open, ContainsSubstring("some bounds still apart"));
+}
+
+TEST_CASE("a ranking says that nothing matters only of what no equation carries to a measurement") {
+    // p1 acts on y1, which is not measured; p2 on y2, of which the one measurement has no width; p3
+    // alone moves y0 by less than its bound, and so does p4: together they pass it.
+    sivid::identification_problem p;
+    p.model = support::model_of(
+        {.states = 1, .constants = 5},
+        [](auto const&, auto const& x, auto const& c, auto const&) {
+            return std::vector{-(c[0] * x[0])};
+        },
+        [](auto const&, auto const& x, auto const& c, auto const&) {
+            return std::vector{x[0] + c[3] + c[4], c[1] * x[0], c[2] * x[0]};
+        });
+    p.choice.unknown = support::all_constants(5);
+    p.prior = {between(0.5, 2), between(1, 9), between(1, 9), between(-0.02, 0.02),
+               between(-0.02, 0.02)};
+    sivid::experiment e;
+    e.name = "run";
+    e.initial = {sivid::interval(2.0)};
+    e.measurements = {{1, 0, between(0.5, 0.6)}, {1, 2, sivid::interval(1.0)}};
+    p.experiments = {e};
+    std::string all;
+    for (auto const& line : ranking_sentences(p, sivid::rank(p, {.seconds = 5}))) all += line;
+    CHECK_THAT(all, ContainsSubstring("p1 cannot matter: no equation carries it to a measured "
+                                      "channel.") &&
+                        !ContainsSubstring("p2 cannot") && !ContainsSubstring("p2 alone") &&
+                        ContainsSubstring("y2 of run: 1 measurement does not count") &&
+                        ContainsSubstring("p3 alone moves no measurement by more than") &&
+                        ContainsSubstring("p4 alone moves") && !ContainsSubstring("p3 cannot") &&
+                        !ContainsSubstring("p0"));
 }
 
 TEST_CASE("a ranking shows what measurements are worth") {

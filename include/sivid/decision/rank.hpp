@@ -35,8 +35,8 @@ struct parameter_effect {
     std::vector<double> start{}, at{};
     double from = 0, to = 0;
 
-    /// It moves no measurement of the channel by an error bound.
-    [[nodiscard]] bool cannot_matter() const { return high < 1; }
+    /// Alone it moves no measurement of the channel by an error bound; together with others it may.
+    [[nodiscard]] bool stays_below_error() const { return high < 1; }
 };
 
 /// One channel of one experiment.
@@ -63,16 +63,29 @@ struct channel_effects {
     [[nodiscard]] std::vector<std::size_t> order() const;
 };
 
+/// Measurements of a channel whose bounds have no width: whatever moves them moves them by any
+/// number of error bounds, and so they do not count.
+struct exact_measurements {
+    std::size_t experiment = 0, channel = 0, count = 0;
+    std::vector<bool> acts; ///< by parameter: some equation carries it to the channel
+};
+
 struct ranking {
-    std::vector<channel_effects> channels; ///< that are measured
+    std::vector<channel_effects> channels; ///< with measurements that count
+    std::vector<exact_measurements> exact;
     /// Which parameters act through products only: no measurement of any channel tells them apart.
     dependence_structure combinations;
     bool complete = false; ///< all bounds are as close as was asked for
     std::size_t parts = 0, integrations = 0;
     double seconds = 0;
 
-    /// The largest effect of a parameter on any measurement of any channel.
+    /// The largest effect of a parameter on any measurement of any channel, of those that count.
     [[nodiscard]] interval overall(std::size_t parameter) const;
+    /// Whether some equation carries a parameter to a channel that is measured; else it cannot
+    /// matter.
+    [[nodiscard]] bool acts(std::size_t parameter) const;
+    /// The same, to measurements that do not count: how far it moves them is not known.
+    [[nodiscard]] bool moves_exact(std::size_t parameter) const;
 };
 
 /// Bounds the effect of each parameter on each measured channel, over the whole prior.
@@ -80,7 +93,8 @@ struct ranking {
 ///   \f$: over all measurements k of the channel, all starts, all values of the other parameters,
 ///   and any two values a, b of parameter j, all in their priors, with the same inputs; w_k is half
 ///   the width of the measurement's bound. What was measured does not enter, only when and how
-///   exactly. Measurements without a bound, or with one of width 0, do not count.
+///   exactly. Measurements without a bound are moved by no error bound; those with one of width 0
+///   do not count (`exact`).
 ///   From above: runs over parts of the prior give the outputs as polynomials, of whose terms only
 ///   those with p_j change with it; along p_j the parts add up. Parts are split where a bound is
 ///   loose. From below: validated runs of points.

@@ -17,7 +17,8 @@ namespace sivid::report {
 /// An effect in error bounds, rounded outward.
 [[nodiscard]] SIVID_DECL std::string effect_text(parameter_effect const& e);
 
-/// What a ranking proves, in sentences: what cannot matter, and what acts in products only.
+/// What a ranking proves, in sentences: what cannot matter, what alone moves little, what does not
+/// count, and what acts in products only.
 [[nodiscard]] SIVID_DECL std::vector<std::string>
 ranking_sentences(identification_problem const& about, ranking const& found);
 

@@ -157,7 +157,15 @@ public:
         for (auto const& c : found_) {
             for (auto const& e : c.effects) result.complete = result.complete && is_close(e);
         }
-        result.channels = std::move(found_);
+        for (std::size_t c = 0; c < found_.size(); ++c) {
+            auto const& samples = cover_.channels()[c];
+            if (samples.exact > 0) {
+                exact_measurements own{samples.experiment, samples.channel, samples.exact, {}};
+                for (auto const& e : found_[c].effects) own.acts.push_back(e.acts);
+                result.exact.push_back(std::move(own));
+            }
+            if (samples.all > samples.exact) result.channels.push_back(std::move(found_[c]));
+        }
         result.parts = cover_.parts();
         result.integrations = test_.integrations();
         return result;
@@ -311,6 +319,17 @@ SIVID_DECL interval ranking::overall(std::size_t parameter) const {
     return {low, high};
 }
 
+SIVID_DECL bool ranking::acts(std::size_t parameter) const {
+    return moves_exact(parameter) ||
+           std::any_of(channels.begin(), channels.end(),
+                       [parameter](channel_effects const& c) { return c.effects[parameter].acts; });
+}
+
+SIVID_DECL bool ranking::moves_exact(std::size_t parameter) const {
+    return std::any_of(exact.begin(), exact.end(),
+                       [parameter](exact_measurements const& m) { return m.acts[parameter]; });
+}
+
 SIVID_DECL ranking rank(identification_problem const& problem, rank_options const& options) {
     auto const begin = std::chrono::steady_clock::now();
     problem.require_valid();
@@ -329,8 +348,7 @@ SIVID_DECL ranking rank(identification_problem const& problem, rank_options cons
     auto const everything = box_explorer::without_limit(problem); // misfits end nothing
     auto result = decision_detail::ranking_work(everything, options)();
     result.combinations = dependence_of(everything);
-    std::erase_if(result.combinations.entangled,
-                  [&](std::size_t j) { return result.overall(j).upper() == 0; });
+    std::erase_if(result.combinations.entangled, [&](std::size_t j) { return !result.acts(j); });
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;

@@ -31,18 +31,25 @@ SIVID_DECL std::vector<std::string> ranking_sentences(identification_problem con
     auto const& names = about.choice.unknown;
     for (std::size_t j = 0; j < names.size(); ++j) {
         auto const most = found.overall(j);
-        if (most.upper() == 0) {
-            lines.push_back(names[j] + " cannot matter: no equation carries it to a channel.");
-        } else if (most.upper() < 1) {
-            lines.push_back(names[j] + " cannot matter: it moves no measurement by more than " +
+        if (!found.acts(j)) {
+            lines.push_back(names[j] +
+                            " cannot matter: no equation carries it to a measured channel.");
+        } else if (most.upper() < 1 && !found.moves_exact(j)) {
+            lines.push_back(names[j] + " alone moves no measurement by more than " +
                             rounded_text(most.upper(), rounding::up) + " error bounds.");
         }
     }
+    for (auto const& m : found.exact)
+        lines.push_back(about.model.about.channels[m.channel].name + " of " +
+                        about.experiments[m.experiment].name + ": " + count_text(m.count) +
+                        (m.count == 1 ? " measurement does" : " measurements do") +
+                        " not count, as the bounds have no width.");
     auto const& products = found.combinations;
     if (!products.entangled.empty()) {
         std::string text;
         for (auto const j : products.entangled) {
-            if (!(found.overall(j).upper() < 1)) text += (text.empty() ? "" : ", ") + names[j];
+            if (found.moves_exact(j) || !(found.overall(j).upper() < 1))
+                text += (text.empty() ? "" : ", ") + names[j];
         }
         if (text.empty()) return lines;
         text += " matter in combination only: no measurement tells them apart beyond ";

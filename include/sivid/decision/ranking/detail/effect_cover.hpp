@@ -21,10 +21,12 @@
 
 namespace sivid::decision_detail {
 
-/// The measurements of one channel in one experiment that count.
+/// The measurements of one channel in one experiment.
 struct ranked_channel {
     std::size_t experiment = 0, channel = 0;
-    std::vector<std::size_t> samples; ///< in the order of time
+    std::vector<std::size_t> samples; ///< that count, in the order of time
+    std::size_t all = 0;
+    std::size_t exact = 0; ///< with a bound of width 0
 };
 
 /// A prior in parts, with bounds of what each parameter moves in each.
@@ -78,6 +80,8 @@ public:
                 auto& own = found[samples[k].channel];
                 own.experiment = e;
                 own.channel = samples[k].channel;
+                ++own.all;
+                own.exact += w == 0 ? 1 : 0;
                 if (counts) own.samples.push_back(first_.back() + k);
             }
             for (auto& [c, own] : found) channels_.push_back(std::move(own));
