@@ -83,7 +83,7 @@ inline void write_identified_model(sivid::identification_problem const& problem,
         if (report::is_empty(p.hull)) continue;
         std::cout << "    " << p.name << " in " << report::outward_text_within(p.hull, p.prior)
                   << (p.unit == "1" ? "" : " " + p.unit)
-                  << (report::share_of_prior(p) > 0.999 ? "  (nothing excluded)" : "") << "\n";
+                  << (report::keeps_prior(p) ? "  (nothing excluded)" : "") << "\n";
     }
     sivid::file_set files(out);
     files.add("model.html", report::identification_page(view).str());

@@ -66,7 +66,7 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
         if (report::is_empty(p.hull)) continue;
         std::cout << "  " << p.name << " in " << report::outward_text_within(p.hull, p.prior) << " "
                   << p.unit;
-        if (report::share_of_prior(p) > 0.999) std::cout << "  (nothing excluded)";
+        if (report::keeps_prior(p)) std::cout << "  (nothing excluded)";
         std::cout << "\n";
     }
     for (auto const& c : view.combinations)

@@ -72,6 +72,24 @@ TEST_CASE("a page of one gain tells its ranges") {
                          ContainsSubstring("The requirement against the tube"));
 }
 
+TEST_CASE("ranges of a gain are rounded so that what is said holds all over them") {
+    asked a;
+    static_cast<void>(a.page("x0 at end in [1, 2]", 1, 0));
+    auto found = *a.result;
+    double const first = 0.7070770263671875, second = 0.7071533203125;
+    sivid::subpaving paving(sivid::box{between(0, 1)});
+    paving.add({between(0, first)}, sivid::box_verdict::outside);
+    paving.add({between(first, second)}, sivid::box_verdict::undecided);
+    paving.add({between(second, 1)}, sivid::box_verdict::inside);
+    found.paving.paving = paving;
+    auto const text =
+        control_page(*a.about, {}, found, nullptr, nullptr, {.dataset = "d", .law = "u0 = K"})
+            .str();
+    CHECK_THAT(text, ContainsSubstring("[0.00000, 0.70707]") &&
+                         ContainsSubstring("[0.70716, 1.00000]") &&
+                         ContainsSubstring("[0.7070770, 0.7071534]"));
+}
+
 TEST_CASE("a page of two gains shows their paving") {
     asked a;
     auto const page = a.page("x0 at end in [1, 2]", 2, 2);

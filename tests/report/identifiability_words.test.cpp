@@ -42,7 +42,7 @@ TEST_CASE("motions, formulas and directions in words") {
     found.free = {{motion_kind::scaling, {1, -2, 0}, 0, true},
                   {motion_kind::scaling, {0, 0, 1}, 0, false}};
     found.fixed = {{motion_kind::scaling, {2, 1, 0}, "a^2*b", true}};
-    found.nearly_free = {{motion_kind::translation, {1, -2, 0}, 0.125, false}};
+    found.nearly_free = {{motion_kind::translation, {1, -2, 0}, 0.121, false}};
     found.nearly_fixed = {{motion_kind::translation, {2, 1, 0}, "2*a + b", false}};
     found.directions = {{{0.04, -0.5, 1}, 123}, {{1, 0, 0}, 0}, {{0, 0, 1}, 0}};
     auto const text = joined(found);

@@ -27,6 +27,9 @@ TEST_CASE("identification words: shares are rounded to the safe side") {
     CHECK(at_least_percent(2.9699e-4) == "0.0296 %");
     CHECK(share_of_prior({"a", "", {0, 1}, {0, 0.25}}) >= 0.25);
     CHECK(share_of_prior({"a", "", {0, 1}, {0, 1}}) == 1);
+    CHECK(keeps_prior({"a", "", {0, 1}, {0, 1}}));
+    CHECK_FALSE(keeps_prior({"a", "", {0, 1}, {0, 0.9999}}));
+    CHECK_FALSE(keeps_prior({"a", "", {0, 1}, {}}));
     CHECK(std::isnan(share_of_prior({"a", "", {1, 1}, {1, 1}})));
     CHECK(std::isnan(share_of_prior({"a", "", {0, 1}, {}})));
     CHECK(formula_text("L*Sg").find('*') == std::string::npos);

@@ -58,7 +58,7 @@ struct measurement_ranking {
 ///   \f$ 1 + |D| / |S| \f$ is bounded by the inner and outer volumes of both. Where nothing of D
 ///   is left, g changes nothing: its measurements follow from the others.
 /// @param groups  those to compare; none: each channel, each experiment, and `options.times` equal
-///                parts of the time that have measurements
+///                parts of the time that have measurements, each from its first one on
 /// @throws std::invalid_argument  an invalid problem
 /// @guarantee  each growth lies within its bounds; without an upper one where nothing is proved
 ///             inside S. No groups are compared when nothing explains the data.

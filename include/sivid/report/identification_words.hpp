@@ -30,6 +30,9 @@ namespace sivid::report {
 /// Width of the hull over the width of the prior, rounded up; NaN when there is no such number.
 [[nodiscard]] SIVID_DECL double share_of_prior(parameter_view const& p);
 
+/// True when the proof left all of the parameter's prior.
+[[nodiscard]] SIVID_DECL bool keeps_prior(parameter_view const& p);
+
 /// True when the proof left (nearly) all of the parameter's prior.
 [[nodiscard]] SIVID_DECL bool is_unresolved(parameter_view const& p);
 

@@ -68,6 +68,10 @@ TEST_CASE("words on runs blame neither length nor time for data that nothing mov
     found.reach[0].moved = found.reach[0].spread = 0.3;
     CHECK(has(words(), "no measurement of the first 1.2 s by more than"));
     CHECK_FALSE(has(words(), "shorter"));
+    auto longer = found;
+    longer.reach[0].until = 2.96;
+    CHECK(has(report::reach_words(p, longer).at(0), "of the first 2.9 s by more than"));
+    CHECK(has(report::reach_words(p, longer).at(0), "enclosed for 2.9 of 3.0 s only"));
     CHECK(has(words(), "Beyond that, over all that is left"));
     // Affine parts alone prove nothing of the whole movement.
     found.reach[0].spread = 1.5;

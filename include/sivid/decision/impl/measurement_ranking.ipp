@@ -30,15 +30,15 @@ inline std::vector<measurement_group> usual_groups(identification_problem const&
         result.push_back({.experiment = {}, .channel = c});
     for (std::size_t e = 0; problem.experiments.size() > 1 && e < problem.experiments.size(); ++e)
         result.push_back({.experiment = e, .channel = {}});
-    double first = std::numeric_limits<double>::infinity(), last = -first;
-    for (auto const& e : problem.experiments) {
-        for (auto const& m : e.measurements) {
-            first = std::min(first, m.time);
-            last = std::max(last, m.time);
-        }
-    }
-    auto const end_of = [&](std::size_t k) { // of part k
-        return first + (last - first) * static_cast<double>(k) / static_cast<double>(times);
+    std::vector<double> instants;
+    for (auto const& e : problem.experiments)
+        for (auto const& m : e.measurements) instants.push_back(m.time);
+    std::sort(instants.begin(), instants.end());
+    auto const end_of = [&](std::size_t k) { // of part k: the first instant of the next one
+        double const first = instants.front(), last = instants.back();
+        double const at =
+            first + (last - first) * static_cast<double>(k) / static_cast<double>(times);
+        return *std::lower_bound(instants.begin(), instants.end(), std::min(at, last));
     };
     for (std::size_t k = 1; times > 1 && k <= times; ++k) {
         measurement_group part;

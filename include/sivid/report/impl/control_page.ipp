@@ -59,12 +59,15 @@ inline void add_gains(page& out, gain_set const& found) {
     for (std::size_t k = 0; k < row.size();) {
         auto const first = k;
         while (k < row.size() && row[k]->verdict == row[first]->verdict) ++k;
-        bool const inside = row[first]->verdict == box_verdict::inside;
         range const r{row[first]->set[0].lower(), row[k - 1]->set[0].upper()};
-        t.rows.push_back({inside ? given_text(r) : outward_text(r),
-                          inside                                        ? "proved"
+        auto const says = row[first]->verdict == box_verdict::inside    ? "proved"
                           : row[first]->verdict == box_verdict::outside ? "violated"
-                                                                        : "not decided"});
+                                                                        : "";
+        // What is known holds within, what is not may reach further.
+        auto const within = "[" + exact_text(r.lo) + ", " + exact_text(r.hi) + "]";
+        t.rows.push_back(
+            {*says != 0 ? inward_text(r, {.significant = 5}).value_or(within) : outward_text(r),
+             *says != 0 ? says : "not decided"});
     }
     out.add(t);
 }

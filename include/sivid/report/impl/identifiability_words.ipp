@@ -82,7 +82,8 @@ SIVID_DECL std::vector<std::string> identifiability_words(identifiability const&
     for (auto const& m : found.nearly_free) {
         lines.push_back("hardly noticed: " + detail::motion_text(m, found.unknowns) +
                         " across the prior moves no output by more than " +
-                        detail::nearest_text(m.noticed) + " of its error bound (to first order)");
+                        rounded_text(m.noticed, rounding::up, {.significant = 2}) +
+                        " of its error bound (to first order)");
     }
     if (!found.fixed.empty())
         lines.push_back("these act through " + detail::joined_formulas(found.fixed) + " alone");

@@ -38,6 +38,10 @@ SIVID_DECL double share_of_prior(parameter_view const& p) {
     return std::min(1.0, share * (1 + 1e-15));
 }
 
+SIVID_DECL bool keeps_prior(parameter_view const& p) {
+    return p.hull.lo <= p.prior.lo && p.hull.hi >= p.prior.hi;
+}
+
 SIVID_DECL bool is_unresolved(parameter_view const& p) { return share_of_prior(p) > 0.99; }
 
 SIVID_DECL std::string formula_text(std::string const& formula) {

@@ -66,7 +66,7 @@ SIVID_DECL std::string group_text(identification_problem const& about,
     if (group.channel) what = about.model.about.channels[*group.channel].name;
     if (group.experiment)
         what += (what.empty() ? "" : " of ") + about.experiments[*group.experiment].name;
-    auto const second = [](double t) { return rounded_text(t, rounding::nearest); };
+    auto const second = [](double t) { return exact_text(t); }; // measurements may be close by
     bool const from = std::isfinite(group.from), to = std::isfinite(group.to);
     if (from && to)
         when = second(group.from) + " to " + second(group.to) + " s";

@@ -20,12 +20,17 @@ namespace sivid::report {
 
 namespace detail {
 
-inline std::string brief(double x) {
-    return rounded_text(x, rounding::nearest, {.significant = 2});
+inline std::string brief(double x, rounding way = rounding::nearest) {
+    return rounded_text(x, way, {.significant = 2});
 }
 
 inline std::string name_of(run_reach::cause const& c) {
     return c.start ? "the start of " + c.name : formula_text(c.name);
+}
+
+/// A time that was enclosed, rounded down; what was meant is the decimal close to it.
+inline std::string at_least_brief(double seconds) {
+    return brief(seconds * (1 + 1e-12), rounding::down);
 }
 
 /// "62 % of it by D33/Iz, 20 % by the start of r"
@@ -42,11 +47,11 @@ inline std::string causes_text(run_reach const& r) {
 /// Where trajectories end, and why.
 inline std::string end_text(run_reach const& r) {
     auto const carried = r.until - r.begin;
-    auto words = carried > 0
-                     ? "over all that is left, trajectories are enclosed for " + brief(carried) +
-                           " of " + brief(r.end - r.begin) + " s only; there "
-                     : std::string{"over all that is left, trajectories are enclosed "
-                                   "nowhere; at the start "};
+    auto words = carried > 0 ? "over all that is left, trajectories are enclosed for " +
+                                   at_least_brief(carried) + " of " + brief(r.end - r.begin) +
+                                   " s only; there "
+                             : std::string{"over all that is left, trajectories are enclosed "
+                                           "nowhere; at the start "};
     words += r.state + " is " + brief(r.width) + unit_suffix(r.unit) + " wide";
     return words + (r.causes.empty() ? "" : " (" + causes_text(r) + ")");
 }
@@ -66,7 +71,7 @@ inline std::string what_hardly_moves(run_reach const& r) {
         (r.instants < r.measured
              ? " (of " + count_text(r.instants) + " instants among " + count_text(r.measured) + ")"
              : std::string{}) +
-        (r.complete() ? "" : " of the first " + brief(r.until - r.begin) + " s") +
+        (r.complete() ? "" : " of the first " + at_least_brief(r.until - r.begin) + " s") +
         " by more than " + rounded_text(r.spread * (1 + 1e-9), rounding::up, {.significant = 2}) +
         " of its error bound: such data hardly tell them apart; smaller bounds, or "
         "motions that depend more on them, would";

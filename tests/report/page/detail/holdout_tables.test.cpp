@@ -17,6 +17,11 @@ TEST_CASE("hold-out tables: figures, known and not") {
     CHECK(t.rows[2][2] == "98.2 to 100\xC2\xA0%");
     CHECK(t.rows[9][2] == "97.8\xC2\xA0%");
     CHECK(holdout_table({}, {}).rows.empty());
+    holdout_view nearly;
+    nearly.covered_before = 1;
+    nearly.covered_after = 2499.0 / 2500;
+    CHECK(holdout_table(nearly, {}).rows[0][1] == "100\xC2\xA0%");
+    CHECK(holdout_table(nearly, {}).rows[0][2] == "99.9\xC2\xA0%");
     holdout_view const open{.inflation_before = {3, std::numeric_limits<double>::infinity()}};
     CHECK(holdout_table(open, {}).rows[0][1] == "at least 3.00");
     CHECK(holdout_table(open, {}).rows[0][2] == "not bounded");

@@ -4,7 +4,20 @@
 
 #include <sivid/report/page/detail/holdout_tables.hpp>
 
+#include <cmath>
+#include <string>
+
 namespace sivid::report {
+
+namespace detail {
+
+/// A share of samples, in percent, rounded down: 99.96 is not all of them.
+inline std::string counted_share(double share) {
+    double const above = std::nextafter(share, HUGE_VAL); // of the quotient of two counts
+    return rounded_text(above, rounding::down, {.significant = 3, .shift = 2}) + "\xC2\xA0%";
+}
+
+} // namespace detail
 
 SIVID_DECL table holdout_table(holdout_view const& h, range const& shrink) {
     table t{.columns = {{"measure", column_kind::symbol},
@@ -21,26 +34,22 @@ SIVID_DECL table holdout_table(holdout_view const& h, range const& shrink) {
                           inflation(h.inflation_after), proved});
     }
     if (says_something(h.over_fits_before) || says_something(h.over_fits_after)) {
-        t.rows.push_back(
-            {"the same, for every parameter that fits",
-             inflation(h.over_fits_before), inflation(h.over_fits_after), proved});
+        t.rows.push_back({"the same, for every parameter that fits", inflation(h.over_fits_before),
+                          inflation(h.over_fits_after), proved});
     }
     if (says_shrink(shrink)) t.rows.push_back({"gap removed", "", shrink_text(shrink), proved});
-    auto const number = [](double x) {
-        return std::isfinite(x) ? rounded_text(x, rounding::nearest) : std::string{"?"};
+    auto const add = [&](std::string const& name, double before, double after, auto const& text) {
+        auto const number = [&](double x) { return std::isfinite(x) ? text(x) : std::string{"?"}; };
+        if (std::isfinite(before) || std::isfinite(after))
+            t.rows.push_back({name, number(before), number(after), estimate});
     };
-    auto const add = [&](std::string const& name, double before, double after,
-                         std::string const& unit, double factor) {
-        if (std::isfinite(before) || std::isfinite(after)) {
-            t.rows.push_back(
-                {name, number(before * factor) + unit, number(after * factor) + unit, estimate});
-        }
-    };
+    auto const upward = [](double x) { return rounded_text(x, rounding::up); };
     for (holdout_view::channel const& c : h.channels) {
-        add("RMSE of " + c.name, c.rmse_before, c.rmse_after, unit_suffix(c.unit), 1);
+        add("RMSE of " + c.name, c.rmse_before, c.rmse_after,
+            [&](double x) { return rounded_text(x, rounding::nearest) + unit_suffix(c.unit); });
     }
-    add("samples in the predicted tube", h.covered_before, h.covered_after, "\xC2\xA0%", 100);
-    add("width of that tube, in bounds", h.width_before, h.width_after, "", 1);
+    add("samples in the predicted tube", h.covered_before, h.covered_after, detail::counted_share);
+    add("width of that tube, in bounds", h.width_before, h.width_after, upward);
     return t;
 }
 
@@ -58,10 +67,8 @@ SIVID_DECL table holdout_candidates_table(diagnosis_view const& v, std::size_t m
         t.rows.push_back(
             {names_of(c->effects),
              says_something(h.inflation_after) ? inflation_text(h.inflation_after) : "not bounded",
-             std::isfinite(h.covered_after)
-                 ? rounded_text(100 * h.covered_after, rounding::nearest) + "\xC2\xA0%"
-                 : "",
-             std::isfinite(h.width_after) ? rounded_text(h.width_after, rounding::nearest) : ""});
+             std::isfinite(h.covered_after) ? detail::counted_share(h.covered_after) : "",
+             std::isfinite(h.width_after) ? rounded_text(h.width_after, rounding::up) : ""});
     }
     return t.rows.size() > 1 ? t : table{};
 }
