@@ -67,11 +67,12 @@ planned_from(std::vector<std::string> const& errors, double period, double end,
             if (&e == &data.experiments.front()) times.insert(m.time);
         }
     }
-    // Half the width of a rounded interval is no decimal any more.
+    // Half the width of a rounded interval is no decimal any more; what is told stays as it is.
     auto const readable = [](double x) {
         return sivid::few_digits(0, HUGE_VAL, x, 1e-9 * std::abs(x));
     };
-    for (auto& b : bounds) b = readable(b);
+    for (auto& b : bounds)
+        if (told.empty()) b = readable(b);
     if (period == 0)
         period = times.size() < 2 ? end / 30
                                   : readable((*times.rbegin() - *times.begin()) /

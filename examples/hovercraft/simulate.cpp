@@ -146,10 +146,11 @@ public:
         }
         std::string const tube =
             validated_
-                ? " The band is proved: every exact solution runs within it at every instant. "
-                  "Where "
-                  "a state stays zero the band shows rounding errors only; see the power of ten "
-                  "at its axis."
+                ? std::string{" The band is proved: every exact solution runs within it at every "
+                              "instant"} +
+                      (complete() ? "" : ", as far as it goes") +
+                      ". Where a state stays zero the band shows rounding errors only; see the "
+                      "power of ten at its axis."
                 : "";
         report::figure inputs{
             .panels = {}, .title = "Inputs.", .caption = "What the craft was given."};

@@ -194,6 +194,9 @@ TEST_CASE("nothing is claimed of data that nothing explains, and no budget makes
     CHECK(none.groups.empty());
     p.prior = {};
     CHECK_THROWS_AS(sivid::rank_measurements(p), std::invalid_argument);
+    auto twice = fading(sivid::interval(2.0), 2); // groups are called by the experiments' names
+    twice.experiments[1].name = twice.experiments[0].name;
+    CHECK_THROWS_WITH(sivid::rank_measurements(twice), ContainsSubstring("a name of its own"));
 }
 
 TEST_CASE("groups may be chosen, and those without measurements are left out") {

@@ -201,6 +201,7 @@ TEST_CASE("diagnosis words: an answer is open while something is left to try") {
     v.singles = {8, 8};
     v.pairs = {0, 28};
     CHECK(tried_text(v) == "8 of 36 candidates tried, no pair");
+    CHECK_FALSE(tried_all(v));
     CHECK(headline(v) == "Gap (proved); open: 8 of 36 candidates tried, no pair");
     CHECK(banner_outcome(v) == outcome::undecided);
     CHECK_THAT(banner_sentence(v), !ContainsSubstring("no candidate"));
@@ -209,6 +210,7 @@ TEST_CASE("diagnosis words: an answer is open while something is left to try") {
     CHECK(tried_text(v) == "11 of 36 candidates tried, 3 of the 28 pairs");
     v.pairs.tried = 28;
     CHECK(tried_text(v) == "all 36 candidates tried");
+    CHECK(tried_all(v));
     v.singles = v.pairs = {};
     CHECK(tried_text(v).empty());
     v.singles = {0, 5};

@@ -10,6 +10,7 @@
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation/observer_refutation.hpp>
+#include <sivid/report/number_text.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>
@@ -168,9 +169,9 @@ std::string validity_words(validity const& v) {
     std::string text =
         "From the start of the record the model as it is explains all samples until " +
         text_of("%g", v.fitted_until) + " s in the best fits found (estimate)";
-    if (v.holds_until > 0) text += "; until " + text_of("%g", v.holds_until) + " s (proved)";
+    if (v.holds_until > 0) text += "; until " + report::exact_text(v.holds_until) + " s (proved)";
     text += v.refuted_by ? "; no parameters explain all samples until " +
-                               text_of("%g", *v.refuted_by) + " s (proved)"
+                               report::exact_text(*v.refuted_by) + " s (proved)"
                          : std::string{};
     return text + ".";
 }

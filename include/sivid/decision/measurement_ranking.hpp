@@ -59,7 +59,7 @@ struct measurement_ranking {
 ///   is left, g changes nothing: its measurements follow from the others.
 /// @param groups  those to compare; none: each channel, each experiment, and `options.times` equal
 ///                parts of the time that have measurements, each from its first one on
-/// @throws std::invalid_argument  an invalid problem
+/// @throws std::invalid_argument  an invalid problem, or two experiments of one name
 /// @guarantee  each growth lies within its bounds; without an upper one where nothing is proved
 ///             inside S. No groups are compared when nothing explains the data.
 /// @cost  an identification, and one more for each group

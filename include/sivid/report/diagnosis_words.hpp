@@ -39,6 +39,9 @@ namespace sivid::report {
 /// narrowed" where they are the prior; empty where nothing is known.
 [[nodiscard]] SIVID_DECL std::string hull_text(estimate_view const& e);
 
+/// Whether all that was planned was tried.
+[[nodiscard]] SIVID_DECL bool tried_all(diagnosis_view const& v);
+
 /// "8 of 36 candidates tried, no pair"; empty when none was planned.
 [[nodiscard]] SIVID_DECL std::string tried_text(diagnosis_view const& v);
 

@@ -92,6 +92,11 @@ SIVID_DECL std::string hull_text(estimate_view const& e) {
     return low == high ? low : low + " to " + high;
 }
 
+SIVID_DECL bool tried_all(diagnosis_view const& v) {
+    return v.singles.tried + v.pairs.tried + v.larger.tried >=
+           v.singles.planned + v.pairs.planned + v.larger.planned;
+}
+
 SIVID_DECL std::string tried_text(diagnosis_view const& v) {
     std::size_t const planned = v.singles.planned + v.pairs.planned + v.larger.planned;
     if (planned == 0) return "";

@@ -100,6 +100,18 @@ TEST_CASE("a motion that explains may not vary more than a relation assumes") {
     CHECK_THAT(run.result.withdrawn[0].reason, ContainsSubstring("vary more"));
 }
 
+TEST_CASE("an answer that is excluded leaves it open while candidates are untried") {
+    for (std::size_t const tried : {1U, 8U}) {
+        auto run = sloping();
+        run.result.tried.singles = {.tried = tried, .planned = 8};
+        run.result.causes.back().verdict = cause_verdict::excluded;
+        run.result.causes.back().inflation = interval(2, 5);
+        settle_claims(run);
+        CHECK(run.result.effects.empty());
+        CHECK(run.result.answer == (tried == 8 ? answer_kind::unexplained : answer_kind::open));
+    }
+}
+
 TEST_CASE("a channel that alone stands against the model is suspected where no place was found") {
     diagnosis d;
     d.gap = gap_verdict::certified;

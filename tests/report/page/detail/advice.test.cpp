@@ -109,5 +109,10 @@ TEST_CASE("advice: whether an experiment has to tell explanations apart") {
     std::erase_if(v.candidates, [](candidate_view const& c) {
         return c.effects == std::vector<std::string>{"input_delay"};
     });
-    CHECK_THAT(all_of(advice_lines(v)), ContainsSubstring("No other candidate was found"));
+    CHECK_THAT(all_of(advice_lines(v)), ContainsSubstring("No other candidate was found") &&
+                                            ContainsSubstring("no experiment has to tell"));
+    v.singles = {.tried = 8, .planned = 8};
+    v.pairs = {.tried = 0, .planned = 28};
+    CHECK_THAT(all_of(advice_lines(v)), ContainsSubstring("no pair): a larger --budget") &&
+                                            !ContainsSubstring("no experiment has to tell"));
 }

@@ -192,7 +192,9 @@ inline void withdraw_contradictions(diagnosis& d,
                         std::any_of(d.causes.begin(), d.causes.end(), [&d](cause const& k) {
                             return k.effects == d.effects && k.verdict == cause_verdict::excluded;
                         });
-                    if (chosen_excluded) d.answer = answer_kind::unexplained, d.effects.clear();
+                    if (!chosen_excluded) break;
+                    d.effects.clear();
+                    d.answer = d.tried.complete() ? answer_kind::unexplained : answer_kind::open;
                 } else {
                     answer_by_proof(d);
                 }

@@ -103,10 +103,11 @@ inline void add_motions(page& out, prediction const& found, decision_page_option
     figure f{.panels = {},
              .legend = motion_plot_legend(all, options),
              .title = "The motion, for all parameters and starts.",
-             .caption = "The band is proved: every motion of the model, for every parameter that "
-                        "the identification leaves and every start of the scenario, runs within it "
-                        "at every instant. The lines are simulated in floating point and prove "
-                        "nothing."};
+             .caption = std::string{"The band is proved: every motion of the model, for every "
+                                    "parameter that the identification leaves and every start of "
+                                    "the scenario, runs within it at every instant"} +
+                        (found.complete ? "" : " at which there is one") +
+                        ". The lines are simulated in floating point and prove nothing."};
     for (auto const& m : all) {
         options.title = m.tube.name;
         f.panels.push_back(draw_motion_plot(m, options));

@@ -150,8 +150,9 @@ SIVID_DECL std::vector<std::string> advice_lines(diagnosis_view const& v) {
     constexpr std::size_t most = 3;
     auto others = detail::other_explanations(v);
     if (answered && others.empty() && v.indistinguishable.empty()) {
-        add("no other candidate was found to explain all data, so no experiment has to tell "
-            "explanations apart");
+        add("no other candidate was found to explain all data" +
+            (tried_all(v) ? std::string{", so no experiment has to tell explanations apart"}
+                          : " (" + tried_text(v) + "): a larger --budget tries the rest"));
     } else if (answered && !v.indistinguishable.empty()) {
         if (!v.next) add(alternatives_clause(v));
     } else if (answered) {
