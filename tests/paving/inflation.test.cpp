@@ -283,3 +283,13 @@ TEST_CASE("a problem restricted to some measurements has no larger inflation") {
     CHECK(nothing.experiments.empty());
     CHECK_THROWS_AS(bound_inflation(nothing), std::invalid_argument);
 }
+
+TEST_CASE("a part with fewer measurements than outliers may be explained by anything") {
+    auto problem = support::decay(between(0.25, 3), 0.5, 0.125, 0.0078125);
+    problem.experiments[0].outliers = 2;
+    auto const first =
+        restricted_to(problem, [](std::size_t, measurement const& m) { return m.time < 1.5; });
+    REQUIRE(first.experiments[0].measurements.size() == 1);
+    CHECK(first.experiments[0].outliers == 1);
+    CHECK(bound_inflation(first, nullptr, brief()).value.upper() == 0);
+}

@@ -11,6 +11,7 @@
 #include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -50,7 +51,7 @@ struct inflation_bound {
 };
 
 /// The problem with those measurements only for which keep(experiment index, measurement) holds;
-/// experiments without any are left out.
+/// experiments without any are left out, and of those with fewer than their outliers all may be.
 template <class Keep>
 [[nodiscard]] identification_problem restricted_to(identification_problem problem,
                                                    Keep const& keep) {
@@ -62,6 +63,7 @@ template <class Keep>
             if (keep(s, m)) measurements.push_back(m);
         }
         e.measurements = std::move(measurements);
+        e.outliers = std::min(e.outliers, e.measurements.size());
         if (!e.measurements.empty()) kept.push_back(std::move(e));
     }
     problem.experiments = std::move(kept);

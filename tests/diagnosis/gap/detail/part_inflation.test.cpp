@@ -4,6 +4,10 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
+#include <cstddef>
+#include <string>
+
 using namespace sivid;
 
 TEST_CASE("no part of the data is worse than the whole, and the broken channel shows") {
@@ -39,4 +43,18 @@ TEST_CASE("a part that is everything is bounded as the whole is, without a searc
     for (auto const& channel : inflation_of_channels(p, whole, {}, go_on)) {
         CHECK(channel.hull->upper() != 3); // two channels: each is less than everything
     }
+}
+
+TEST_CASE("a channel with fewer measurements than outliers is bounded, too") {
+    auto p = small_campaign::problem(small_campaign::with_scale(0.2));
+    for (auto& e : p.experiments) {
+        e.outliers = 3;
+        std::size_t of_speed = 0;
+        std::erase_if(e.measurements,
+                      [&](auto const& m) { return m.channel == 1 && ++of_speed > 2; });
+    }
+    auto const go_on = [](std::string const&) { return true; };
+    auto const channels = inflation_of_channels(p, interval(0.0, HUGE_VAL), {}, go_on);
+    REQUIRE(channels.size() == 2);
+    CHECK(channels[1].hull->upper() == 0);
 }

@@ -109,3 +109,30 @@ TEST_CASE("what no fault of a sensor can do is proved of the equation") {
     CHECK_FALSE(sensor_discharge(problem, ranges)(definition));
     CHECK_FALSE(sensor_discharge(problem, ranges)(relation_finding{}));
 }
+
+TEST_CASE("a record that ends before a sensor may show anything discharges nobody") {
+    auto const cart = support::model_of(
+        {1, 2, 1, 20}, [](auto const&, auto const& x, auto const& p, auto const& u) {
+            using T = std::decay_t<decltype(x[0])>;
+            return std::vector<T>{p[0] * u[0] - p[1] * x[0]};
+        });
+    identification_problem problem{cart, {support::all_constants(2), {}}, prior, {}};
+    experiment e;
+    e.name = "S";
+    e.inputs = {sine_input(2, 1.1, 1)};
+    e.initial = box{interval(0.0)};
+    for (int k = 1; k <= 4; ++k)
+        e.measurements.push_back({0.1 + k * 0.01, 0, around(k * 1.0, 0.001)});
+    problem.experiments.push_back(std::move(e));
+    relation_options options;
+    options.shortest = 0.01;
+    auto const found = examine_relations(problem, options)[0];
+    REQUIRE(found.proved);
+    sensor_fault_ranges ranges;
+    ranges.scale = ranges.offset = 0.01;
+    ranges.mixing = 0;
+    ranges.latency = 0.05;
+    CHECK(sensor_discharge(problem, ranges, options)(found));
+    ranges.latency = 0.4;
+    CHECK_FALSE(sensor_discharge(problem, ranges, options)(found));
+}

@@ -74,6 +74,21 @@ TEST_CASE("a suspect's problem is about what its sensor shows") {
     CHECK(equal(exact.problem.experiments[0].initial[1], before.initial[1]));
 }
 
+TEST_CASE("a delay as long as a record leaves nothing of it, one almost as long few outliers") {
+    draws d(45);
+    auto problem = two_speeds(d);
+    auto& e = problem.experiments[0];
+    std::erase_if(e.measurements, [](measurement const& m) { return m.channel == 0; });
+    e.outliers = 3;
+    auto const f = faults_of(problem, {std::nullopt, 1}, 1, {});
+    std::map<std::string, std::vector<rate_variation>> const laws{{"S", {{0.1, 1}, {0.1, 2}}}};
+    auto const last = e.measurements.back().time;
+    auto const few = suspect_of(problem, f, laws, last, 0).problem;
+    CHECK(few.experiments.at(0).measurements.size() == 1);
+    CHECK_NOTHROW(few.require_valid());
+    CHECK(suspect_of(problem, f, laws, last + 0.1, 0).problem.experiments.empty());
+}
+
 TEST_CASE("half a slice of delays may span many samples of a dense record") {
     // y' = u - 30 y, shown 0.0999 s late, 50 kHz: within half a slice the speed turns.
     draws d(41);

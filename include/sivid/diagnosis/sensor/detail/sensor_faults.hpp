@@ -102,7 +102,8 @@ faults_of(identification_problem const& problem,
 }
 
 /// A problem about what a faulty sensor shows, re-timed for delays around one value: its model
-/// takes that for the state and corrects it by unknown constants.
+/// takes that for the state and corrects it by unknown constants. Experiments that the delay leaves
+/// no measurement are left out; there may be none.
 struct suspect_problem {
     identification_problem problem;
     suspected_sensor sensor;
@@ -198,7 +199,9 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
             kept.push_back(m);
         }
         e.measurements = std::move(kept);
+        e.outliers = std::min(e.outliers, e.measurements.size());
     }
+    std::erase_if(problem.experiments, [](experiment const& e) { return e.measurements.empty(); });
     return result;
 }
 
