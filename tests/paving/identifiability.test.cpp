@@ -6,8 +6,8 @@
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"
 #include "support/models.hpp"
-#include "support/real_functions.hpp"
 #include "support/random.hpp"
+#include "support/real_functions.hpp"
 #include "support/reference.hpp"
 
 #include <algorithm>
@@ -303,6 +303,27 @@ TEST_CASE("directions are noticed as simulations say") {
         last = std::min(last, direction.noticed);
     }
     CHECK(found.directions.back().noticed == last);
+}
+
+TEST_CASE(
+    "where every prior touches 0 there is no product, and of nothing unknown there is nothing") {
+    auto const sum = [](box const& prior) {
+        return in_the_middle(posed(
+            {1, 2},
+            [](auto const&, auto const& x, auto const& p, auto const&) {
+                return std::vector{(p[0] + p[1]) * (1 - x[0])};
+            },
+            states_seen, prior, box{interval(0.0)}));
+    };
+    auto const touching = sum(box{between(0, 2), between(-1, 1)});
+    check_ranks(touching, 1);
+    CHECK(texts(touching.fixed) == std::vector<std::string>{"p0 + p1"});
+    auto const known = sum(box{interval(0.5), interval(0.25)});
+    CHECK(known.unknowns.empty());
+    CHECK(known.outputs == times_seen.size());
+    CHECK(known.directions.empty());
+    check_ranks(known, 0);
+    CHECK(known.tells_all_apart());
 }
 
 TEST_CASE("what does not fit is refused") {
