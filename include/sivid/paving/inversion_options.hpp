@@ -28,7 +28,7 @@ struct paving_progress {
 struct inversion_options {
     /// A box is left undecided when no side is wider than this fraction of the prior's side.
     double accuracy = 1e-3;
-    /// `accuracy` is a fraction of the hull of all that is not proved outside, instead.
+    /// `accuracy` is a fraction of the hull of all that is not proved outside in the end, instead.
     bool accuracy_of_hull = false;
     /// Stop when no side of that hull has shrunk by more than this fraction while the boxes tested
     /// doubled, twice in a row (0: never), and each of its faces is touched by a box that the test
@@ -41,6 +41,8 @@ struct inversion_options {
     /// accuracy. `stop_reason::inside_share`.
     double sufficient_ratio = 0.5;
     double seconds = 60;
+    /// Boxes tested; a step that was begun is ended, and one that learns may test `batches` full
+    /// sets.
     std::size_t boxes = 10'000'000;
     /// Bytes for waiting and paved boxes and for what was learnt about them: what they hold,
     /// without the allocator's share and the spare room of growing lists (at most as much again for

@@ -6,6 +6,10 @@
 #include "support/catch.hpp"
 #include "support/models.hpp"
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 using namespace sivid;
 using support::between;
 
@@ -23,6 +27,23 @@ TEST_CASE("waiting boxes come by volume or by age, and their hull is known") {
         CHECK(waiting.pop().volume == (by_age ? 1 : 2));
         CHECK(waiting.pop().volume == (by_age ? 2 : 1));
         CHECK(waiting.empty());
+    }
+}
+
+TEST_CASE("a frontier goes back to a moment, whatever was taken and put back under other numbers") {
+    paving_detail::frontier<int> waiting(search_order::largest_first);
+    for (int k = 1; k <= 5; ++k) waiting.push(box{between(0, k)}, k, k);
+    auto const before = waiting.now();
+    auto largest = waiting.pop(), other = waiting.pop();
+    std::vector<std::size_t> const moved{other.number};
+    waiting.push(std::move(other.set), other.volume, other.load);
+    waiting.back_to(before, {std::move(largest)}, moved);
+    CHECK(waiting.pushed() == 5);
+    CHECK(waiting.volume() == 15);
+    for (int k = 5; k >= 1; --k) {
+        auto const next = waiting.pop();
+        CHECK(next.load == k);
+        CHECK(next.number + 1 == static_cast<std::size_t>(k));
     }
 }
 

@@ -53,6 +53,21 @@ public:
         pushed_ = pushed;
         total_ = total;
     }
+    struct moment {
+        std::size_t pushed;
+        double volume;
+    };
+    [[nodiscard]] moment now() const { return {pushed_, total_}; }
+    /// Undoes what was taken, and put back in vain, since.
+    /// @param moved  the numbers that items had which were put back, in the order of putting back
+    void back_to(moment const& before, std::vector<item> taken,
+                 std::vector<std::size_t> const& moved = {}) {
+        for (auto& i : items_) {
+            if (i.number >= before.pushed) i.number = moved[i.number - before.pushed];
+            taken.push_back(std::move(i));
+        }
+        restore(std::move(taken), before.pushed, before.volume);
+    }
     [[nodiscard]] bool empty() const { return items_.empty(); }
     [[nodiscard]] std::size_t size() const { return items_.size(); }
     [[nodiscard]] std::size_t pushed() const { return pushed_; }

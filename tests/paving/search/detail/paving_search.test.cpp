@@ -188,6 +188,57 @@ TEST_CASE("a plain test may be interrupted before every single step") {
     }
 }
 
+TEST_CASE("what was small against an old hull is looked at again, after any interruptions") {
+    // Of boxes wider than 64 nothing is seen, so some are narrow enough before the hull is known.
+    auto const make = [] {
+        return [](box const& x) {
+            assessment<> a{box_verdict::undecided, x};
+            if (width(x[0]) > 64) return a;
+            if (disjoint(x[0], between(0.3, 1))) a.verdict = box_verdict::outside;
+            if (subset(x[0], between(0.3, 1))) a.verdict = box_verdict::inside;
+            return a;
+        };
+    };
+    box const prior{between(0, 1024)};
+    inversion_options o;
+    o.accuracy = 0.1;
+    o.accuracy_of_hull = true;
+    o.sufficient_ratio = 1;
+    o.proof_bytes = 1 << 20;
+    for (auto const order : {search_order::largest_first, search_order::first_in}) {
+        o.order = order;
+        auto test = make();
+        auto const whole = invert(test, prior, o);
+        auto const left = whole.paving.outer_hull();
+        CHECK(whole.reason == stop_reason::accuracy_reached);
+        CHECK(width(left[0]) < 1.2 * 0.7);
+        CHECK(whole.paving.count(box_verdict::undecided) == 2);
+        for (auto const& b : whole.paving.boxes()) {
+            if (b.verdict == box_verdict::undecided) CHECK(width(b.set[0]) <= 0.1 * width(left[0]));
+        }
+        CHECK(
+            std::count_if(whole.proof.begin(), whole.proof.end(),
+                          [](proof_step const& s) { return s.what == proof_step::kind::leaf; }) ==
+            std::ptrdiff_t(whole.paving.boxes().size() - whole.paving.count(box_verdict::outside)));
+        for (std::size_t k = 0; k <= whole.tested + 1; ++k) {
+            check_same(in_pieces(make, prior, o, {k}), whole);
+        }
+        check_same(in_pieces(make, prior, o, std::vector<std::size_t>(whole.tested, 1)), whole);
+    }
+}
+
+TEST_CASE("a search that looks again at what it left may decide all of it") {
+    std::size_t tested = 0;
+    auto const test = [&](box const& x) {
+        assessment<> a{box_verdict::undecided, x};
+        if (++tested > 5) a.verdict = box_verdict::outside;
+        return a;
+    };
+    inversion_options o{.accuracy = 0.4, .accuracy_of_hull = true};
+    // [0, 1/4] is left, then the rest is proved outside; what was left is wide against itself.
+    CHECK(invert(test, box{between(0, 1)}, o).reason == stop_reason::decided);
+}
+
 TEST_CASE("a search that learns finds the same box for box after any interruptions") {
     draws d(5001);
     std::size_t remembered = 0;

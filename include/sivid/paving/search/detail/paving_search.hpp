@@ -6,6 +6,7 @@
 #include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/search/detail/box_batches.hpp>
 #include <sivid/paving/search/detail/lesson.hpp>
+#include <sivid/paving/search/detail/split_rule.hpp>
 #include <sivid/paving/search/frontier.hpp>
 #include <sivid/paving/search/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
@@ -17,7 +18,6 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -47,7 +47,7 @@ public:
           paving_(prior),
           waiting_(options.order),
           batches_(test, waiting_, options.workers),
-          whole_(prior),
+          splits_{.whole = prior},
           rest_{.last = prior},
           outside_kept_(options.keep_outside || options.checkpoint || options.resume) {
         require_sound_environment();
@@ -96,21 +96,20 @@ public:
             options_.sufficient_ratio < 1) {
             stop = stop_reason::inside_share;
         }
-        if (stop) {
-            reason_ = *stop;
-            stopped_at_ = now;
-        }
-        return stop.has_value();
+        if (!stop) return false;
+        reason_ = *stop;
+        stopped_at_ = now;
+        return true;
     }
 
     /// Takes the next box, or the next boxes to learn about, and settles what is found. A test that
     /// was interrupted meanwhile settles nothing: then all is as it was before the step.
     void step() {
-        step_mark const before{waiting_.pushed(), waiting_.running_volume()};
+        auto const before = waiting_.now();
         if constexpr (in_batches) {
             auto next = batches_.take();
             if (cut_short()) {
-                put_back(before, {std::move(next)});
+                waiting_.back_to(before, {std::move(next)});
             } else if (next.load.judged->blind) {
                 learn(before, std::move(next));
             } else {
@@ -124,12 +123,13 @@ public:
             auto const known = next.load.known;
             auto found = ask(next.set, known);
             if (cut_short()) {
-                put_back(before, {std::move(next)});
+                waiting_.back_to(before, {std::move(next)});
                 return;
             }
             ++tested_;
             settle(std::move(next), found, hand_on(found.knowledge, known));
         }
+        if (waiting_.empty()) reopen();
     }
 
     /// What waits is pending in the result.
@@ -163,8 +163,8 @@ public:
         s.cost = cost_;
         s.batches = options_.batches;
         s.accuracy_reached = reason_ == stop_reason::accuracy_reached;
-        s.whole = whole_;
-        s.measured_at = measured_at_;
+        s.whole = splits_.whole;
+        s.measured_at = splits_.measured_at;
         s.last_hull = rest_.last;
         s.rested = rest_.rested;
         s.next_look = rest_.next_look;
@@ -196,8 +196,7 @@ private:
             tested_ = s.tested;
             cost_ = s.cost;
             if (s.accuracy_reached) reason_ = stop_reason::accuracy_reached;
-            whole_ = s.whole;
-            measured_at_ = s.measured_at;
+            splits_ = {s.whole, s.measured_at};
             rest_ = {s.last_hull, s.rested, s.next_look};
             earlier_ = s.seconds;
             written_at_ = earlier_;
@@ -224,20 +223,6 @@ private:
         }
     }
 
-    struct step_mark { ///< where a step began
-        std::size_t pushed;
-        double volume;
-    };
-    /// Undoes a step that has settled nothing: `taken` are the items that it took, `moved` the
-    /// numbers that items had which it put back in vain, in the order of putting back.
-    void put_back(step_mark const& before, std::vector<item> taken,
-                  std::vector<std::size_t> const& moved = {}) {
-        for (auto i : waiting_.items()) {
-            if (i.number >= before.pushed) i.number = moved[i.number - before.pushed];
-            taken.push_back(std::move(i));
-        }
-        waiting_.restore(std::move(taken), before.pushed, before.volume);
-    }
     [[nodiscard]] bool cut_short() const {
         if constexpr (interruptible_set_test<Test>) {
             return test_->cancelled();
@@ -260,14 +245,35 @@ private:
     }
     [[nodiscard]] std::optional<std::size_t> split_side(box const& x,
                                                         std::vector<double> const& smear) {
-        using paving_detail::side_to_split;
-        auto const side = side_to_split(x, whole_, smear, options_.accuracy);
-        // Where an old hull rules out the best side, those that say nothing would be halved.
-        bool const best = side && side == side_to_split(x, whole_, smear, 0);
-        if (best || !options_.accuracy_of_hull || 4 * tested_ < 5 * measured_at_) return side;
-        whole_ = waiting_.hull(hull(paving_.outer_hull(), x));
-        measured_at_ = tested_;
-        return side_to_split(x, whole_, smear, options_.accuracy);
+        return splits_(x, smear, options_, tested_,
+                       [&] { return waiting_.hull(hull(paving_.outer_hull(), x)); });
+    }
+    /// Boxes that were small against an older hull may be wide against that of what is left in the
+    /// end. Their halves wait.
+    void reopen() {
+        if (!options_.accuracy_of_hull || !paving_.has_outer()) return;
+        splits_.measure(paving_.outer_hull(), tested_);
+        subpaving rest(prior_);
+        reason_ = stop_reason::decided;
+        for (auto const& b : paving_.boxes()) {
+            bool const open = b.verdict == box_verdict::undecided;
+            auto const side = open ? split_side(b.set, {}) : std::nullopt;
+            if (side) {
+                if (log_) log_->add(b.set, {}, b.set, side);
+                push_halves(b.set, *side, nullptr);
+            } else {
+                rest.add(b.set, b.verdict);
+                if (open) reason_ = stop_reason::accuracy_reached;
+            }
+        }
+        paving_ = std::move(rest);
+    }
+    void push_halves(box const& x, std::size_t side, known_part known) {
+        auto [low, high] = bisect(x, side, mid(x[side]));
+        double const low_volume = volume(low);
+        double const high_volume = volume(high);
+        waiting_.push(std::move(low), low_volume, {known});
+        waiting_.push(std::move(high), high_volume, {std::move(known)});
     }
 
     /// What a test found about a box goes into the paving, and its parts wait.
@@ -298,16 +304,9 @@ private:
         }
         auto const side = split_side(found.rest, found.smear);
         tell(found.rest, side);
-        if (!side) {
-            reason_ = stop_reason::accuracy_reached;
-            decide(std::move(found.rest), box_verdict::undecided);
-            return;
-        }
-        auto [low, high] = bisect(found.rest, *side, mid(found.rest[*side]));
-        double const low_volume = volume(low);
-        double const high_volume = volume(high);
-        waiting_.push(std::move(low), low_volume, {known});
-        waiting_.push(std::move(high), high_volume, {std::move(known)});
+        if (side) return push_halves(found.rest, *side, std::move(known));
+        reason_ = stop_reason::accuracy_reached;
+        decide(std::move(found.rest), box_verdict::undecided);
     }
 
     [[nodiscard]] answer ask(box const& x, known_part const& known) {
@@ -343,19 +342,19 @@ private:
     }
 
     /// Boxes that are blind too are learnt about together.
-    void learn(step_mark const& before, item first) {
+    void learn(typename frontier::moment const& before, item first) {
         auto [sets, moved] = batches_.gather(std::move(first), options_.batches);
         std::vector<item> taken;
         for (auto const& set : sets) taken.insert(taken.end(), set.begin(), set.end());
-        auto const measure = std::pair(whole_, measured_at_);
+        auto const splits = splits_;
         // While there are few the search has just begun: halves are more use than wholes.
         while (options_.order == search_order::largest_first &&
                2 * sets[0].size() <= test_->at_once() && halve(sets[0])) {
         }
         auto found = batches_.learn(sets);
         if (cut_short()) {
-            put_back(before, std::move(taken), moved);
-            std::tie(whole_, measured_at_) = measure;
+            waiting_.back_to(before, std::move(taken), moved);
+            splits_ = splits;
             return;
         }
         for (std::size_t k = 0; k < sets.size(); ++k) {
@@ -385,8 +384,7 @@ private:
     std::size_t tested_ = 0;
     std::size_t cost_ = 0;
     std::optional<proof_log> log_;
-    box whole_; ///< what the accuracy is a fraction of
-    std::size_t measured_at_ = 0;
+    paving_detail::split_rule splits_;
     paving_detail::hull_rest rest_;
     /// A state without them could not be told from one that lost a box.
     bool outside_kept_;
