@@ -2,6 +2,7 @@
 // Measurements one by one, against the planted truth and against all of them at once.
 #include <sivid/paving/online_identification.hpp>
 
+#include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 #include "support/problems.hpp"
 #include "support/some_start.hpp"
@@ -9,8 +10,10 @@
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <random>
+#include <thread>
 #include <vector>
 
 using namespace sivid;
@@ -239,6 +242,67 @@ TEST_CASE("idle time refines, and without measurements everything is feasible") 
     CHECK(width(at_once.last().hull) <= width(before));
     CHECK(contains(at_once.last().hull, planted.truth));
     CHECK(at_once.last().samples == 10);
+}
+
+TEST_CASE("a result says what ended the refinement, and calls itself complete only then") {
+    auto const reason_of = [](online_options const& o, int idle = 0) {
+        online_identification online(plain_problem::make(0, 0, between(1.5, 2.5)), o);
+        for (int k = 0; k < idle; ++k) (void)online.refine();
+        return online.result().reason;
+    };
+    online_options all;
+    all.refinement.seconds = 1e9;
+    CHECK(reason_of(all) == stop_reason::inside_share);
+    auto hulls = all;
+    hulls.only_hulls = true;
+    hulls.refinement.sufficient_ratio = 1;
+    hulls.refinement.accuracy = 0;
+    CHECK(reason_of(hulls) == stop_reason::hulls_rest);
+    for (int const idle : {0, 1, 3}) {
+        auto o = hulls;
+        o.refinement.live = 1; // nothing is split
+        CHECK(reason_of(o, idle) == stop_reason::box_budget);
+        o = hulls;
+        o.refinement.boxes = 1;
+        CHECK(reason_of(o, idle) == stop_reason::box_budget);
+        o = all;
+        o.refinement.seconds = 0;
+        CHECK(reason_of(o, idle) == stop_reason::time_budget);
+        o.test.run.enclosure.keep_going = [] { return false; };
+        CHECK(reason_of(o, idle) == stop_reason::cancelled);
+    }
+    online_identification impossible(plain_problem::make(2, 0), all);
+    CHECK(impossible.result().reason == stop_reason::decided);
+    auto fine = all;
+    fine.refinement.sufficient_ratio = 1;
+    fine.refinement.accuracy = 0.1;
+    online_identification ends(plain_problem::make(), fine);
+    auto const found = ends.result();
+    CHECK(found.reason == stop_reason::accuracy_reached);
+    CHECK(found.paving.count(box_verdict::undecided) > 0);
+    for (auto const& b : found.paving.boxes()) {
+        if (b.verdict != box_verdict::undecided) continue;
+        CHECK(width(b.set[0]) <= 0.1 * width(found.hull[0]));
+    }
+}
+
+TEST_CASE("an update ends in time but for a run that was begun, and what it lacks comes later") {
+    auto options = quick();
+    options.refinement.seconds = 0.02;
+    bool slow = true; // one run takes longer than an update may
+    options.test.run.enclosure.keep_going = [&slow] {
+        if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return true;
+    };
+    online_identification online(plain_problem::make(0, 0, between(1.5, 2.5)), options);
+    CHECK(online.last().integrations == 1);
+    CHECK(online.last().verdict == verdict::undecided);
+    slow = false;
+    CHECK(online.result().reason == stop_reason::time_budget);
+    for (int k = 0; k < 1000 && online.last().verdict == verdict::undecided; ++k) {
+        (void)online.refine();
+    }
+    CHECK(online.last().verdict == verdict::consistent);
 }
 
 TEST_CASE("measurements that fit nothing are refused and change nothing") {

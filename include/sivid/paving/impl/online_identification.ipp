@@ -11,6 +11,7 @@
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
 #include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box_cover.hpp>
 
 #include <algorithm>
@@ -86,7 +87,14 @@ public:
         auto const begin = std::chrono::steady_clock::now();
         identification result(problem_.prior);
         result.assumptions.push_back(input_assumption(problem_.experiments));
-        if (!witness_->exists() && last_.verdict != verdict::inconsistent) witness_->find();
+        auto const& run = options_.test.run.enclosure;
+        result.reason = paving_->reason();
+        if (result.reason != stop_reason::decided && (fit_is_due() || from_other_starts_))
+            result.reason = stop_reason::time_budget;
+        if (result.reason == stop_reason::time_budget && run.cancelled())
+            result.reason = stop_reason::cancelled;
+        if (!witness_->exists() && last_.verdict != verdict::inconsistent)
+            witness_->find(run.keep_going);
         result.witness = witness_->get();
         result.guess = witness_->guess();
         subpaving reduced(posed().prior);
@@ -110,7 +118,6 @@ public:
             result.hull = left;
         }
         result.verdict = judged_verdict();
-        result.reason = paving_->rests_since(options_.refinement);
         result.combinations = combinations();
         if (!paving_->boxes().empty()) {
             result.entangled = structure_.entangled;
@@ -143,15 +150,16 @@ private:
             samples_ += samples[e].size();
         }
         for (std::size_t e = 0; e < samples.size(); ++e) witness_->add(e, samples[e]);
-        paving_->update(samples, options_.refinement);
-        now.verdict = judged_verdict();
-        // A fit costs more the more measurements there are: not again for each of them.
-        if (now.verdict == verdict::undecided && 10 * samples_ >= 11 * fitted_at_) {
-            fitted_at_ = samples_;
-            witness_->find();
-            if (auto const w = witness_->get()) start_from(*w);
-            now.verdict = judged_verdict();
+        work_limit const limit(options_.refinement.seconds, options_.test.run.enclosure.keep_going);
+        if (put_off_) look_for_witness(limit);
+        paving_->update(samples, options_.refinement, limit);
+        look_for_witness(limit);
+        if (from_other_starts_ && limit()) {
+            from_other_starts_ = false;
+            paving_->learn_anew();
+            paving_->refine(options_.refinement, limit);
         }
+        now.verdict = judged_verdict();
         now.samples = samples_;
         now.combinations = combinations();
         now.hull = hull();
@@ -163,6 +171,19 @@ private:
         spent_ += now.seconds;
         return now;
     }
+    /// A fit costs more the more measurements there are: not again for each of them.
+    [[nodiscard]] bool fit_is_due() const {
+        return samples_ > 0 && 10 * samples_ >= 11 * fitted_at_ &&
+               judged_verdict() == verdict::undecided;
+    }
+    /// A fit for which an update leaves no time comes first in the next.
+    void look_for_witness(work_limit const& limit) {
+        put_off_ = fit_is_due() && !limit();
+        if (put_off_ || !fit_is_due()) return;
+        witness_->find(limit);
+        if (limit()) fitted_at_ = samples_;
+        if (auto const w = witness_->get()) start_from(*w);
+    }
     /// Existence is proved from the starts of the witness from now on.
     void start_from(verified_witness const& w) {
         std::vector<box> starts;
@@ -173,8 +194,7 @@ private:
         }
         if (!uncertain) return;
         paving_->test().set_starts(std::move(starts));
-        paving_->learn_anew();
-        paving_->refine(options_.refinement);
+        from_other_starts_ = true;
     }
 
     [[nodiscard]] verdict judged_verdict() const {
@@ -245,6 +265,8 @@ private:
     std::optional<online_witness> witness_;
     online_update last_;
     std::size_t samples_ = 0, fitted_at_ = 0;
+    bool put_off_ = false;           ///< a fit
+    bool from_other_starts_ = false; ///< are the regions to be followed
     double spent_ = 0;
 };
 

@@ -6,10 +6,11 @@
 #include <sivid/paving/online/detail/online_test.hpp>
 #include <sivid/paving/search/detail/hull_rest.hpp>
 #include <sivid/paving/search/frontier.hpp>
-#include <sivid/paving/subpaving.hpp>
+#include <sivid/paving/verdict.hpp>
+#include <sivid/paving/work_limit.hpp>
+#include <sivid/space/box.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -57,7 +58,8 @@ public:
     }
 
     /// Takes new measurements, per experiment, and refines.
-    void update(std::vector<record> const& samples, online_refinement const& how) {
+    void update(std::vector<record> const& samples, online_refinement const& how,
+                work_limit const& limit) {
         auto const regions = living();
         for (auto const& r : regions) r->forget_news();
         for (std::size_t e = 0; e < samples.size(); ++e) {
@@ -70,55 +72,55 @@ public:
             b.verdict = box_verdict::pending;
         }
         for (auto const& r : regions) contract_together(r);
-        refine(how);
+        refine(how, limit);
     }
-    /// Judges and splits what is open, largest ones first, within the budget.
-    void refine(online_refinement const& how) {
-        auto const begin = std::chrono::steady_clock::now();
-        auto const until = judged_ + how.boxes;
-        auto const late = [&] {
-            return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >
-                   how.seconds;
-        };
+    /// Judges and splits what is open, largest ones first, within the budgets.
+    /// @param limit  asked instead of `how.seconds`; a run that was begun is ended, since one that
+    ///               is cut short is never carried on
+    void refine(online_refinement const& how, work_limit const& limit) {
         gather_open();
         auto const before = judged_;
         paving_detail::hull_rest rest{.last = hull_of_all(),
                                       .next_look = std::max<std::size_t>(8, open_.size())};
-        while (!open_.empty() && judged_ < until && !late()) {
+        std::optional<stop_reason> ended;
+        while (!ended) {
             bool const fresh = std::any_of(open_.begin(), open_.end(),
                                            [](live_box const& b) { return !b.judged; });
-            if (!fresh && enough(how, rest, judged_ - before)) break;
-            // What is new is judged before anything is split.
-            if (fresh) {
-                judge_all(until, late);
+            if (open_.empty() && !reopen(how)) {
+                ended = stop_reason::accuracy_reached;
+            } else if (!fresh && much_inside(how)) {
+                ended = stop_reason::inside_share;
+            } else if (!fresh && rests(how, rest, judged_ - before)) {
+                ended = stop_reason::hulls_rest;
+            } else if (judged_ >= before + how.boxes) {
+                ended = stop_reason::box_budget;
+            } else if (!limit()) {
+                ended = stop_reason::time_budget;
+            } else if (fresh) { // what is new is judged before anything is split
+                judge_all(before + how.boxes, limit);
             } else if (!learn_blind()) {
-                if (boxes_.size() + open_.size() >= how.live) break;
-                split_largest(how);
+                if (boxes_.size() + open_.size() < how.live) {
+                    split_largest(how);
+                } else {
+                    ended = stop_reason::box_budget;
+                }
             }
         }
+        ended_ = *ended;
         for (auto& b : open_) boxes_.push_back(std::move(b));
         open_.clear();
-        consolidate();
+        if (limit()) consolidate();
         narrow_regions();
     }
     /// Why what is left was refined no further by the last update.
-    [[nodiscard]] stop_reason rests_since(online_refinement const& how) const {
-        bool decided = true, judged = true, fine = true;
-        auto const whole = hull();
-        for (auto const& b : boxes_) {
-            if (b.verdict == box_verdict::inside) continue;
-            decided = false;
-            judged = judged && b.judged;
-            fine = fine && !paving_detail::side_to_split(b.set, whole, b.smear, how.accuracy);
-        }
-        return decided             ? stop_reason::decided
-               : !judged           ? stop_reason::box_budget
-               : fine              ? stop_reason::accuracy_reached
-               : much_inside(how)  ? stop_reason::inside_share
-               : how.hull_gain > 0 ? stop_reason::hulls_rest
-                                   : stop_reason::box_budget;
+    [[nodiscard]] stop_reason reason() const {
+        bool const decided = std::all_of(boxes_.begin(), boxes_.end(), [](live_box const& b) {
+            return b.verdict == box_verdict::inside;
+        });
+        return decided ? stop_reason::decided : ended_;
     }
     /// Integrates anew over what is left of each region: from other starts, say.
+    /// @cost  a run for each of them, eight at a time; until the next refinement nothing is judged
     void learn_anew() {
         auto const old = living();
         std::vector<box> sets;
@@ -180,11 +182,21 @@ private:
 
     /// Takes the open boxes out.
     void gather_open() {
+        take_out([](live_box const& b) { return !b.judged || b.verdict != box_verdict::inside; });
+    }
+    /// Takes out those that were small against an older hull and are not against that of what is
+    /// left. @returns false when there is none
+    [[nodiscard]] bool reopen(online_refinement const& how) {
+        take_out([&, whole = hull()](live_box const& b) {
+            return b.verdict != box_verdict::inside &&
+                   paving_detail::side_to_split(b.set, whole, b.smear, how.accuracy);
+        });
+        return !open_.empty();
+    }
+    template <class Opens>
+    void take_out(Opens const& opens) {
         std::vector<live_box> settled;
-        for (auto& b : boxes_) {
-            bool const is_open = !b.judged || b.verdict != box_verdict::inside;
-            (is_open ? open_ : settled).push_back(std::move(b));
-        }
+        for (auto& b : boxes_) (opens(b) ? open_ : settled).push_back(std::move(b));
         boxes_ = std::move(settled);
     }
 
@@ -204,16 +216,14 @@ private:
         return around;
     }
     /// @param judged  boxes since the refinement began
-    [[nodiscard]] bool enough(online_refinement const& how, paving_detail::hull_rest& rest,
-                              std::size_t judged) const {
-        if (much_inside(how)) return true;
+    [[nodiscard]] bool rests(online_refinement const& how, paving_detail::hull_rest& rest,
+                             std::size_t judged) const {
         return rest(
             judged, how.hull_gain, [this] { return hull_of_all(); },
             [](box const&) { return true; });
     }
 
-    template <class Late>
-    void judge_all(std::size_t until, Late const& late) {
+    void judge_all(std::size_t until, work_limit const& limit) {
         std::vector<live_box> open, homeless;
         for (auto& b : open_) {
             bool const learns = !b.judged && !b.home;
@@ -223,7 +233,7 @@ private:
         if (!homeless.empty()) give_homes(std::move(homeless));
         std::vector<live_box> kept;
         for (auto& b : open_) {
-            if (b.judged || judged_ >= until || late()) {
+            if (b.judged || judged_ >= until || !limit()) {
                 kept.push_back(std::move(b));
                 continue;
             }
@@ -349,7 +359,8 @@ private:
     box prior_;
     online_test test_;
     std::vector<live_box> boxes_;
-    std::vector<live_box> open_; ///< while refining: what is open
+    std::vector<live_box> open_;               ///< while refining: what is open
+    stop_reason ended_ = stop_reason::decided; ///< what the last refinement ended by
     std::size_t judged_ = 0;
     double consolidated_ = 1;
 };

@@ -13,7 +13,7 @@ struct online_refinement {
     double hull_gain = 0;          ///< as of `inversion_options`; 0.02 with hulls alone
     std::size_t boxes = 400;       ///< judged in one update
     std::size_t live = 64;         ///< no box is split while there are so many
-    double seconds = 1;            ///< of one update
+    double seconds = 1; ///< of one update, its fit included; what was begun of a run is ended
 };
 
 } // namespace sivid

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -65,13 +66,14 @@ public:
     }
 
     /// Proposes a point by a fit to all measurements, from the last one, and verifies it.
+    /// @param keep_going  as of `fitter`; a fit that is cut short is what the next one begins with
     /// @cost  grows with the number of measurements, unlike `add`
-    void find() {
+    void find(std::function<bool()> const& keep_going) {
         auto known = *problem_;
         std::erase_if(known.experiments,
                       [](experiment const& e) { return e.measurements.empty(); });
         if (known.experiments.empty()) return;
-        fitter fit(known, options_.enclosure.keep_going);
+        fitter fit(known, keep_going);
         auto guess = fit({last_});
         if (!(guess.inflation < 1) && !last_.empty()) guess = fit();
         if (guess.parameters.empty()) return;
