@@ -67,4 +67,17 @@ TEST_CASE("each defect of a problem is named") {
     refused("'" + p.choice.unknown[0] + "' is unknown and has a fixed value");
     p.experiments[0].begin = nan;
     refused("E0");
+    p.experiments[0].constraint = true;
+    p.experiments[0].outliers = 1;
+    refused("allows no outliers");
+}
+
+TEST_CASE("a condition is no data, and what takes it for data is told so") {
+    auto p = sound();
+    CHECK_NOTHROW(p.require_data());
+    CHECK_NOTHROW(p.require_valid_campaign());
+    p.experiments.back().constraint = true;
+    CHECK_NOTHROW(p.require_valid());
+    CHECK_THROWS_WITH(p.require_data(), ContainsSubstring("'E0'") && ContainsSubstring("original"));
+    CHECK_THROWS_WITH(p.require_valid_campaign(), ContainsSubstring("no data"));
 }

@@ -23,6 +23,9 @@ struct experiment {
     box initial;                ///< the states at `begin`; every start in the box is possible
     record measurements;
     std::size_t outliers = 0; ///< at most so many of the measurements may violate their bounds
+    /// The bounds are no data but a condition that parameters meet (`changed_problem`): none of
+    /// them is ever dropped, grown or counted.
+    bool constraint = false;
 
     /// Time of the last measurement; `begin` where there is none.
     [[nodiscard]] double end() const {
@@ -56,10 +59,21 @@ struct identification_problem {
     box prior;
     std::vector<experiment> experiments;
 
-    /// For what knows experiments by their names: a diagnosis, windows of equations.
-    /// @throws std::invalid_argument as `require_valid`, and where two experiments have one name
-    void require_valid_campaign() const {
+    /// For what drops, grows, counts or weighs measurements: not for `identify`.
+    /// @throws std::invalid_argument as `require_valid`, and where an experiment is a constraint
+    void require_data() const {
         require_valid();
+        for (auto const& e : experiments)
+            if (e.constraint)
+                throw std::invalid_argument("identification problem: experiment '" + e.name +
+                                            "' is a condition and no data; ask this of the problem "
+                                            "without it (of the original one, before a change of "
+                                            "variables)");
+    }
+    /// For what knows experiments by their names: a diagnosis, windows of equations.
+    /// @throws std::invalid_argument as `require_data`, and where two experiments have one name
+    void require_valid_campaign() const {
+        require_data();
         for (std::size_t s = 0; s < experiments.size(); ++s)
             for (std::size_t k = 0; k < s; ++k)
                 if (experiments[k].name == experiments[s].name)
@@ -98,6 +112,7 @@ struct identification_problem {
             if (s.outliers > s.measurements.size()) {
                 fail(where + "more outliers allowed than there are measurements");
             }
+            if (s.constraint && s.outliers > 0) fail(where + "a condition allows no outliers");
             for (auto const& m : s.measurements) {
                 if (m.channel >= model.about.channels.size()) fail(where + "unknown channel");
                 if (!(m.time >= s.begin) || !std::isfinite(m.time)) {

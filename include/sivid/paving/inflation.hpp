@@ -52,6 +52,7 @@ struct inflation_bound {
 
 /// The problem with those measurements only for which keep(experiment index, measurement) holds;
 /// experiments without any are left out, and of those with fewer than their outliers all may be.
+/// What is no data but a constraint is kept.
 template <class Keep>
 [[nodiscard]] identification_problem restricted_to(identification_problem problem,
                                                    Keep const& keep) {
@@ -60,7 +61,7 @@ template <class Keep>
         auto e = std::move(problem.experiments[s]);
         record measurements;
         for (auto const& m : e.measurements) {
-            if (keep(s, m)) measurements.push_back(m);
+            if (e.constraint || keep(s, m)) measurements.push_back(m);
         }
         e.measurements = std::move(measurements);
         e.outliers = std::min(e.outliers, e.measurements.size());

@@ -6,9 +6,15 @@
 #include "support/catch.hpp"
 #include "support/problems.hpp"
 
+#include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/inflation.hpp>
+#include <sivid/paving/inflation/detail/holdout_inflation.hpp>
+#include <sivid/paving/outlier_budget.hpp>
+#include <sivid/paving/run/run_reach.hpp>
 
 #include <cmath>
+#include <cstddef>
 
 using namespace sivid;
 using support::between;
@@ -149,6 +155,35 @@ TEST_CASE(
     changed_problem const posed(planted.problem, coordinates(0));
     REQUIRE(contains(posed.problem().prior, {0.45, 0.75}));
     CHECK(found_in(posed, 2000).verdict == verdict::inconsistent);
+}
+
+TEST_CASE("the prior of the parameters is no data: nothing grows, drops or counts it") {
+    draws d(675);
+    // The truth lies beside the prior, its coordinates in the box around the prior's image: without
+    // the prior nothing would be wrong.
+    auto planted = support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1}, {.noise = 0.001});
+    auto& problem = planted.problem;
+    auto const middle = 0.5 * (planted.truth[1] + decay_prior[1].upper());
+    problem.prior[1] = interval(middle, decay_prior[1].upper());
+    changed_problem const changed(problem, coordinates(0));
+    auto const& posed = changed.problem();
+    REQUIRE(contains(posed.prior, {planted.truth[0] * planted.truth[1], planted.truth[0]}));
+    auto const refuses = [&](auto const& ask) {
+        CHECK_NOTHROW(ask(problem));
+        CHECK_THROWS_WITH(ask(posed), ContainsSubstring("'prior of the parameters'") &&
+                                          ContainsSubstring("original"));
+    };
+    refuses([](auto const& p) { return bound_inflation(p, nullptr, {.seconds = 0.1}); });
+    CHECK_THROWS_WITH(holdout_inflation(posed, {}, posed), ContainsSubstring("original"));
+    refuses([](auto const& p) { return smallest_outlier_budget(p, {.seconds = 0.1}); });
+    refuses([](auto const& p) { return identifiability_of(p, point_box(mid(p.prior))); });
+    // What is left where data are dropped still knows the prior.
+    auto const none = restricted_to(posed, [](std::size_t, measurement const&) { return false; });
+    REQUIRE(none.experiments.size() == 1);
+    CHECK(none.experiments[0].constraint);
+    CHECK(none.experiments[0].measurements.size() == 2);
+    CHECK(found_in(changed, 2000).verdict == verdict::inconsistent);
+    for (auto const& r : reach_of_runs(posed, posed.prior, {})) CHECK(r.scenario == "E0");
 }
 
 TEST_CASE("maps that do not fit are refused") {

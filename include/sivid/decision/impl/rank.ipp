@@ -332,7 +332,7 @@ SIVID_DECL bool ranking::moves_exact(std::size_t parameter) const {
 
 SIVID_DECL ranking rank(identification_problem const& problem, rank_options const& options) {
     auto const begin = std::chrono::steady_clock::now();
-    problem.require_valid();
+    problem.require_data();
     if (problem.model.has_memory())
         throw std::invalid_argument(
             "rank: the model has a delay, a play or a rate limit of unknown size, which "

@@ -25,7 +25,7 @@ SIVID_DECL identification identify_remembering(identification_problem const& bas
     auto const begin = std::chrono::steady_clock::now();
     work_limit const limit(options.seconds, options.keep_going);
     auto const problem = affected(base, effects);
-    problem.require_valid();
+    problem.require_data();
     identification result(problem.prior);
     result.assumptions.push_back(input_assumption(problem.experiments));
     {

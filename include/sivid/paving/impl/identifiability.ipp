@@ -134,7 +134,7 @@ inline void add_formulas(identifiability& found) {
 
 SIVID_DECL identifiability identifiability_of(identification_problem const& problem, box const& at,
                                               identifiability_options const& options) {
-    problem.require_valid();
+    problem.require_data();
     if (at.size() != problem.prior.size() || is_empty(at))
         throw std::invalid_argument("identifiability_of: one side per parameter, none empty");
     sensitivity_runs const runs(problem, unknowns_of(problem, options.starts), options.enclosure);

@@ -174,7 +174,7 @@ SIVID_DECL inflation_bound bound_inflation(identification_problem const& problem
                                            approximate_fit const* guess,
                                            inflation_options const& options) {
     require_sound_environment();
-    problem.require_valid();
+    problem.require_data();
     return paving_detail::inflation_work(problem, options)(guess);
 }
 

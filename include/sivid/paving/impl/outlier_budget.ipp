@@ -145,7 +145,7 @@ inline proved_count least_violations(identification_problem const& problem, few_
 
 SIVID_DECL smallest_budget smallest_outlier_budget(identification_problem const& problem,
                                                    outlier_search_options const& asked) {
-    problem.require_valid();
+    problem.require_data();
     work_limit const limit(asked.seconds, asked.keep_going);
     auto options = asked;
     options.keep_going = limit;

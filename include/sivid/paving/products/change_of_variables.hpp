@@ -40,7 +40,7 @@ template <class Forward, class Backward>
 
 /// An identification problem posed in other coordinates.
 ///   Its prior is a box around the image of the parameters' prior. That the parameters lie in their
-///   own prior is one more experiment, without outliers: its channels show the parameters, and its
+///   own prior is one more experiment, a constraint: its channels show the parameters, and its
 ///   "measurements" are the sides of the prior. So q is feasible exactly when the parameters that
 ///   it stands for are in their prior and explain the data; verdicts, hulls, pavings and witnesses
 ///   of the posed problem are those of the original one, seen in q.
@@ -73,7 +73,10 @@ public:
         pose(*image);
     }
 
-    /// The problem in the coordinates, for `identify` and everything else.
+    /// The problem in the coordinates, for what asks which of them explain the data: `identify`,
+    /// `identify_by_bisection`, `online_identification`. What grows or counts measurements
+    /// (inflation, fewest outliers, identifiability, diagnosis) refuses it: the parameters' prior
+    /// is no data.
     [[nodiscard]] identification_problem const& problem() const { return posed_; }
 
     /// Encloses the parameters of all coordinates in q that lie in their prior; empty sides when
@@ -143,6 +146,7 @@ private:
         within.inputs = nominal(like.inputs);
         within.begin = like.begin;
         within.initial = point_box(mid(like.initial));
+        within.constraint = true;
         for (std::size_t j = 0; j < original_.prior.size(); ++j) {
             within.measurements.push_back({like.begin, channels + j, original_.prior[j]});
         }

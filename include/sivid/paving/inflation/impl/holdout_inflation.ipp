@@ -302,8 +302,8 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
                                            inflation_options const& options,
                                            std::vector<std::vector<double>> const& likely_starts) {
     require_sound_environment();
-    fit.require_valid();
-    holdout.require_valid();
+    fit.require_data();
+    holdout.require_data();
     if (fit.choice.unknown != holdout.choice.unknown) {
         throw std::invalid_argument("holdout_inflation: the problems have other parameters");
     }

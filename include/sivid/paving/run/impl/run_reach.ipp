@@ -153,7 +153,8 @@ SIVID_DECL std::vector<run_reach> reach_of_runs(identification_problem const& pr
     if (problem.model.has_memory()) return result;
     auto const seen = with_states_seen(problem.model);
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
-        if (problem.experiments[e].measurements.empty()) continue;
+        auto const& known = problem.experiments[e];
+        if (known.measurements.empty() || known.constraint) continue;
         if (run.enclosure.cancelled()) break;
         result.push_back(paving_detail::reach_of_run(problem, e, seen, parameters, run));
     }
