@@ -99,6 +99,45 @@ TEST_CASE("a sensor that lies breaks the relations in whose rows it stands") {
     }
 }
 
+TEST_CASE("a proof names the starts wherever it rests on them") {
+    // x1 is read once a second: until then its start tells where it is, in windows of x0, too.
+    auto const m = support::model_of({2, 2, 1, 100},
+                                     [](auto const&, auto const& x, auto const& p, auto const& u) {
+                                         return std::vector{p[0] * x[1], p[1] * (u[0] - x[1])};
+                                     });
+    std::vector<sampled_signal> const inputs{{{0, 10}, {1, 1}, interpolation::linear}};
+    auto const truth = simulate(m, {1, 0.5}, inputs, {0, 1}, 6, 0.0025);
+    auto const lists = [](relation_finding const& f) {
+        return std::find(f.assumptions.begin(), f.assumptions.end(),
+                         "initial states in their boxes") != f.assumptions.end();
+    };
+    for (double const first : {0.0, 1.0}) { // with a reading at the begin both are intersected
+        for (double const wrong : {0.0, 5.0}) {
+            identification_problem problem{
+                m, {support::all_constants(2), {}}, box{between(0.8, 1.2), between(0.4, 0.6)}, {}};
+            experiment e{"S", {inputs[0]}, 0, box{between(-50, 50), around(1 + wrong, 0.01)}, {},
+                         0};
+            for (int k = 1; k < 60; ++k)
+                e.measurements.push_back({k * 0.1, 0, around(truth.at(k * 0.1)[0], 0.01)});
+            for (double t = first; t < 6; t += 1)
+                e.measurements.push_back({t, 1, around(truth.at(t)[1], t == 0 ? 20 : 0.01)});
+            problem.experiments.push_back(e);
+            for (auto const& f : examine_relations(problem)) {
+                CHECK(f.proved == (wrong > 0));
+                if (f.proved) CHECK(lists(f));
+            }
+        }
+    }
+    // Where all that is used has been read before, they do not count.
+    draws d(38);
+    auto const p = pendulum_truth(d);
+    auto const broken = find_broken_relations(plant(d, pendulum(2), pendulum(), pendulum_prior, p));
+    REQUIRE(broken.size() == 1);
+    bool begins = false;
+    for (auto const& w : broken[0].windows) begins = begins || w.from == 0;
+    CHECK(lists(broken[0]) == begins);
+}
+
 TEST_CASE("what is missing is enclosed over time") {
     draws d(33);
     // A constant push of 1 that the model lacks; it knows its coefficients.

@@ -75,14 +75,14 @@ TEST_CASE("sensors and assumptions are named") {
     relation_windows windows(problem, options);
     REQUIRE(windows.obstacle(1).empty());
     relation_finding direct;
-    windows.describe(1, window_way::direct, {1}, false, direct);
+    windows.describe(1, window_way::direct, {{1, 0.1}}, direct);
     CHECK(direct.channels == std::vector<std::string>{"y0", "y1"});
     REQUIRE(direct.assumptions.size() == 3);
     CHECK_THAT(direct.assumptions[0], StartsWith("x0' varies within 0.1 s by at most"));
     CHECK(direct.assumptions[1] == "x1' varies within 0.1 s by at most 7.5 1/s in S1");
     CHECK(direct.assumptions[2] == "inputs exact");
     relation_finding parts;
-    windows.describe(1, window_way::by_parts, {0, 1}, true, parts);
+    windows.describe(1, window_way::by_parts, {{0, 1.0}, {1, 0.0}}, parts);
     CHECK(parts.assumptions.front() == "x0' = x1");
     CHECK(parts.assumptions.back() == "initial states in their boxes");
 }
@@ -96,7 +96,7 @@ TEST_CASE("a rate that was not measured is examined through its integral") {
     CHECK(windows.ways(1) == std::vector{window_way::weak});
     CHECK_FALSE(windows.all(1, window_way::weak).empty());
     relation_finding f;
-    windows.describe(1, window_way::weak, {0}, false, f);
+    windows.describe(1, window_way::weak, {{0, 0.1}}, f);
     CHECK(f.channels == std::vector<std::string>{"y0"});
     CHECK(f.assumptions.front() == "x0' = x1");
 }

@@ -12,7 +12,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -180,13 +179,13 @@ private:
             if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
         };
         auto& windows = base_.windows();
-        std::set<std::size_t> motions;
-        for (std::size_t m = 0; m < windows.motions().size(); ++m) motions.insert(m);
+        std::map<std::size_t, double> since;
+        for (auto const& m : windows.motions()) since.emplace(since.size(), m.begin);
         relation_finding all;
-        windows.describe(f.equation, window_way::direct, motions, true, all);
+        windows.describe(f.equation, window_way::direct, since, all);
         std::string names;
         for (auto const i : definitions_) {
-            windows.describe(i, window_way::direct, motions, true, all);
+            windows.describe(i, window_way::direct, since, all);
             names += (names.empty() ? "" : ", ") + problem_->model.about.states[i].name;
         }
         for (auto const& a : all.assumptions) add(a);

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -119,22 +119,20 @@ private:
         }
         if (!(result.margin > 0) || result.margin < options_.least_margin) return;
         result.proved = true;
-        std::set<std::size_t> motions;
-        bool from_begin = false;
+        std::map<std::size_t, double> since;
         for (auto const& [k, factor] : relaxed.multipliers.multipliers) {
             if (k >= 2 * list.size()) continue; // between coefficients
             auto const& w = list[k / 2];
-            auto const& motion = windows_.motion(w.motion);
-            relation_window const window{motion.name, w.from, w.to};
+            relation_window const window{windows_.motion(w.motion).name, w.from, w.to};
             if (std::find(result.windows.begin(), result.windows.end(), window) !=
                 result.windows.end()) {
                 continue;
             }
             result.windows.push_back(window);
-            motions.insert(w.motion);
-            from_begin = from_begin || w.from == motion.boundaries.front();
+            auto& first = since.emplace(w.motion, w.from).first->second;
+            first = std::min(first, w.from);
         }
-        windows_.describe(i, way, motions, from_begin, result);
+        windows_.describe(i, way, since, result);
     }
 
     relation_windows windows_;

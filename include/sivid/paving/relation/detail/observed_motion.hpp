@@ -40,6 +40,13 @@ struct observed_motion {
         return static_cast<std::size_t>(std::lower_bound(boundaries.begin(), boundaries.end(), t) -
                                         boundaries.begin());
     }
+    /// Whether what the tube of a state says from a time on rests on where the state starts: tubes
+    /// begin with the initial box, and run on from it to the state's next sample.
+    [[nodiscard]] bool rests_on_start(std::size_t i, double from) const {
+        if (!tubes[i]) return false;
+        auto const& times = tubes[i]->times();
+        return from <= times.front() || (times.size() > 1 && from < times[1]);
+    }
     /// Encloses a state over [from, to]; the whole line where nothing is known.
     [[nodiscard]] interval state_over(std::size_t i, double from, double to) const {
         if (!tubes[i] || !tubes[i]->covers(from, to)) return interval_traits<interval>::entire();

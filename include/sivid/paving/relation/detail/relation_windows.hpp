@@ -175,9 +175,9 @@ public:
         return std::nullopt;
     }
 
-    /// Sensors and assumptions of a proof.
-    void describe(std::size_t i, window_way way, std::set<std::size_t> const& motions,
-                  bool from_begin, relation_finding& result) const {
+    /// Sensors and assumptions of a proof that uses each motion since some time.
+    void describe(std::size_t i, window_way way, std::map<std::size_t, double> const& since,
+                  relation_finding& result) const {
         auto tubes = row(i).states;
         if (way == window_way::by_parts) {
             for (auto const& p : pairs_of(i)) add_pair(p, tubes, result);
@@ -188,7 +188,7 @@ public:
         for (auto const s : tubes) {
             // The variation is rounded so that the text assumes rather more than the proof does.
             std::string text;
-            for (auto const m : motions) {
+            for (auto const& [m, from] : since) {
                 auto const& law = motions_[m].variation[s];
                 text += (text.empty() ? "" : ", ") + to_decimal_lower(law.variation, 6) + " " +
                         rate_unit(s) + " in " + motions_[m].name;
@@ -196,11 +196,16 @@ public:
             }
             result.assumptions.push_back(
                 about().states[s].name + "' varies within " +
-                nearest_text(motions_[*motions.begin()].variation[s].period, 6) + " s by at most " +
-                text);
+                nearest_text(motions_[since.begin()->first].variation[s].period, 6) +
+                " s by at most " + text);
         }
         if (row(i).uses_inputs) result.assumptions.emplace_back("inputs exact");
-        if (from_begin) result.assumptions.emplace_back("initial states in their boxes");
+        auto used = tubes;
+        if (!by_sensor_alone(row(i))) used.insert(i);
+        bool starts = false;
+        for (auto const& [m, from] : since)
+            for (auto const s : used) starts = starts || motions_[m].rests_on_start(s, from);
+        if (starts) result.assumptions.emplace_back("initial states in their boxes");
         if (way != window_way::weak) tubes.insert(i);
         for (auto const s : tubes) result.channels.push_back(about().channels[*channels_[s]].name);
     }
@@ -270,20 +275,22 @@ private:
         result.further.push_back(p.q);
         result.assumptions.push_back(about().states[p.q].name + "' = " + about().states[p.r].name);
     }
-    /// What the differences of the equation's own state are taken from. A kinematic equation is one
-    /// between sensors: the initial state is left out, lest a constant error of the state's sensor
-    /// (which the equation cannot see) be taken for one of the equation.
+    /// Whether the differences of the equation's own state leave out the initial state: a kinematic
+    /// equation is one between sensors. A constant error of the state's sensor, which it cannot
+    /// see, would be taken for one of the equation.
+    [[nodiscard]] bool by_sensor_alone(relation_row const& row) const {
+        return row.kinematic && source_ == tube_source::declared;
+    }
     [[nodiscard]] std::optional<channel_tube> const& own_tube(relation_row const& row,
                                                               observed_motion const& m) const {
-        bool const sensed = row.kinematic && source_ == tube_source::declared;
-        return sensed ? m.sensed[row.equation] : m.tubes[row.equation];
+        return by_sensor_alone(row) ? m.sensed[row.equation] : m.tubes[row.equation];
     }
     [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
                                                   double longest) {
         std::vector<window_row> result;
-        bool const middle = way == window_way::stated_middle;
         if (is_stated(way))
-            return stated_.windows(i, middle, motions_, shortest, longest, options_.go_on);
+            return stated_.windows(i, way == window_way::stated_middle, motions_, shortest, longest,
+                                   options_.go_on);
         if (way == window_way::weak) {
             auto const weak = weak_form(i);
             for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
@@ -293,8 +300,7 @@ private:
             return result;
         }
         auto& e = integrated(i, way);
-        std::size_t total = 0;
-        for (int const pass : {0, 1}) {
+        for (std::size_t pass = 0, total = 0; pass < 2; ++pass) {
             std::size_t count = 0;
             auto const stride = total / options_.most_windows + 1;
             for (std::size_t m = 0; m < motions_.size(); ++m) {
@@ -304,8 +310,8 @@ private:
                     for (std::size_t a = b; a-- > 0;) {
                         double const length = times[b] - times[a];
                         if (length > longest * (1 + 1e-9)) break;
-                        if (length < shortest * (1 - 1e-9)) continue;
-                        if (++count % stride != 0 || pass == 0) continue;
+                        if (length < shortest * (1 - 1e-9) || ++count % stride != 0) continue;
+                        if (pass == 0) continue;
                         auto found = row_over(e, way, m, times[a], times[b]);
                         if (found) result.push_back(*std::move(found));
                     }
@@ -327,15 +333,11 @@ private:
     }
     [[nodiscard]] std::optional<window_row> row_over(prepared_equation const& e, window_way way,
                                                      std::size_t m, double from, double to) const {
-        window_row w;
-        w.motion = m;
-        w.from = from;
-        w.to = to;
+        window_row w{m, from, to, {}, {}, traits::sub(traits::point(to), traits::point(from))};
         auto const& motion = motions_[w.motion];
         auto const& tube = *own_tube(e.row, motion);
         auto const& integral = e.integrals[w.motion];
         if (!tube.covers(w.from, w.to)) return std::nullopt;
-        w.length = traits::sub(traits::point(w.to), traits::point(w.from));
         auto const first = motion.boundary_at(w.from);
         auto const last = motion.boundary_at(w.to);
         auto const& ends = motion.boundaries;
@@ -348,9 +350,7 @@ private:
         w.difference =
             scaled(traits::sub(traits::mul(integral.weight_at(last), tube.over(w.to, w.to)),
                                traits::mul(integral.weight_at(first), tube.over(w.from, w.from))));
-        auto const q_at = [&motion](std::size_t q, std::size_t k) {
-            return motion.state_over(q, motion.boundaries[k], motion.boundaries[k]);
-        };
+        auto const q_at = [&](auto q, auto k) { return motion.state_over(q, ends[k], ends[k]); };
         bool parts = way == window_way::by_parts;
         for (auto const& p : pairs_of(e.row.equation)) {
             parts = parts && motion.sensed[p.q] && motion.sensed[p.q]->covers(w.from, w.to);
