@@ -82,6 +82,10 @@ TEST_CASE("a start of which nothing is known is no sample to measure rates by") 
     CHECK(s.without_vague_start().times.size() == 3);
     CHECK(s.without_vague_start().without_vague_start().times.size() == 3);
     CHECK(s.without_vague_start().greatest_secant(3) < 1);
+    e.measurements[1].bound = interval_traits<interval>::bounds(0.0, HUGE_VAL);
+    auto const told = state_samples::of(e, 0, 0).bounded();
+    CHECK(told.times == std::vector<double>{0, 0.1, 3 * 0.1});
+    CHECK(told.bounds.size() == 3);
     CHECK(state_samples{{0.0}, {between(0, 1)}}.period() == 1);
     CHECK(state_samples{{0.0}, {between(0, 1)}}.greatest_secant(3) == 0);
 }

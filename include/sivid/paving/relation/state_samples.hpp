@@ -57,6 +57,16 @@ struct state_samples {
         std::nth_element(gaps.begin(), middle, gaps.end());
         return *middle;
     }
+    /// Without those that have no bound on some side: of them no rate can be told.
+    [[nodiscard]] state_samples bounded() const {
+        state_samples result;
+        for (std::size_t k = 0; k < times.size(); ++k) {
+            if (!is_bounded(bounds[k])) continue;
+            result.times.push_back(times[k]);
+            result.bounds.push_back(bounds[k]);
+        }
+        return result;
+    }
     /// Without a start of which far less is known than of the samples.
     [[nodiscard]] state_samples without_vague_start() const {
         if (times.size() < 2 || width(bounds[0]) <= 4 * width(bounds[1])) return *this;

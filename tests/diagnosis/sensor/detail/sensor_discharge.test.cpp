@@ -104,6 +104,12 @@ TEST_CASE("what no fault of a sensor can do is proved of the equation") {
         CHECK(subset(*sure, place->missing->value));
     }
     CHECK_FALSE(sensor_discharge(problem, ranges, {}, [] { return false; })(found));
+    // An experiment with nothing but a reading at its begin changes nothing.
+    auto longer = problem;
+    longer.experiments.push_back(problem.experiments[0]);
+    longer.experiments.back().name = "begin";
+    longer.experiments.back().measurements = {{0, 0, between(-9, 9)}};
+    CHECK(sensor_discharge(longer, ranges)(examine_relations(longer)[0]));
     auto definition = found;
     definition.definition = true;
     CHECK_FALSE(sensor_discharge(problem, ranges)(definition));

@@ -130,3 +130,122 @@ TEST_CASE("half a slice of delays may span many samples of a dense record") {
         REQUIRE(contains(one.bound, truth.at(one.time)[0]));
     }
 }
+
+TEST_CASE("an isolated reading may have moved by what the rate varies by in the gaps beside it") {
+    // Gaps of ten periods on either side of a reading at the turn of a motion with |x''| <= 10: its
+    // rate varies by 1 within each period of 0.1 s, and by 10 within the gaps.
+    auto const truth = [](double t) {
+        double const s = std::abs(t - 2);
+        return (t < 2 ? -1 : 1) * (s <= 1 ? 5 * s - 5 * s * s : 5 - 5 * s);
+    };
+    auto const m =
+        support::model_of({1, 1, 0, 100}, [](auto const&, auto const& x, auto const& p,
+                                             auto const&) { return std::vector{p[0] * x[0]}; });
+    double const late = 0.2, half = 0.01;
+    std::vector<double> times;
+    for (int k = 1; k <= 10; ++k) times.push_back(0.1 * k);
+    times.push_back(2 + late);
+    for (int k = 0; k < 10; ++k) times.push_back(3 + 2 * late + 0.1 * k);
+    experiment e;
+    e.name = "S";
+    e.initial = box{around(truth(0), 0.001)};
+    for (double const t : times) e.measurements.push_back({t, 0, around(truth(t - late), 0.0001)});
+    identification_problem const problem{
+        m, {support::all_constants(1), {}}, box{between(0, 1)}, {e}};
+    std::map<std::string, std::vector<rate_variation>> const laws{{"S", {{0.1, 1.001}}}};
+    faulty_channel const f{0, 0, interval(0.0), interval(0.0), interval(0.0), {}, late};
+    auto const s = suspect_of(problem, f, laws, late - half, half * (1 + 1e-9));
+    auto const& moved = s.problem.experiments[0].measurements;
+    CHECK(moved.size() == 19); // all but those of before the begin
+    for (auto const& one : moved) {
+        INFO(one.time);
+        CHECK(contains(one.bound, truth(one.time)));
+    }
+    // Of one reading alone no rate can be told.
+    auto single = problem;
+    single.experiments[0].measurements = {e.measurements.back()};
+    auto const vague = suspect_of(single, f, laws, late - half, half);
+    CHECK_FALSE(is_bounded(vague.problem.experiments[0].measurements[0].bound));
+}
+
+TEST_CASE("late readings are followed at times since 1970, which are rounded") {
+    auto const m =
+        support::model_of({1, 1, 0, 100}, [](auto const&, auto const& x, auto const& p,
+                                             auto const&) { return std::vector{p[0] * x[0]}; });
+    double const begin = 1.7e9;
+    experiment e;
+    e.name = "S";
+    e.begin = begin;
+    e.initial = box{between(-1, 1)};
+    for (int k = 1; k < 20; ++k) {
+        double const t = begin + 0.1 * k;
+        e.measurements.push_back({t, 0, around(1000 * (t - begin - 0.0301), 1e-6)});
+    }
+    identification_problem const problem{
+        m, {support::all_constants(1), {}}, box{between(0, 1)}, {e}};
+    faulty_channel const f{0, 0, interval(0.0), interval(0.0), interval(0.0), {}, 0.05};
+    auto const s = suspect_of(problem, f, {{"S", {{0.1, 0}}}}, 0.0301, 0);
+    for (auto const& one : s.problem.experiments[0].measurements)
+        CHECK(contains(one.bound, 1000 * (one.time - begin)));
+}
+
+TEST_CASE("experiments that a delay leaves without a reading are left out") {
+    draws d(45);
+    auto problem = two_speeds(d);
+    auto at_begin = problem.experiments[0];
+    at_begin.name = "begin";
+    at_begin.measurements = {{0, 1, between(-1, 0)}};
+    auto few = problem.experiments[0];
+    few.name = "few";
+    few.outliers = few.measurements.size();
+    problem.experiments.insert(problem.experiments.end(), {at_begin, few});
+    faulty_channel const f{1, 1, interval(0.0), interval(0.0), interval(0.0), {}, 0.2};
+    std::map<std::string, std::vector<rate_variation>> laws;
+    for (auto const& e : problem.experiments) laws[e.name] = {{0.1, 1}, {0.1, 2}};
+    auto const s = suspect_of(problem, f, laws, 0.15, 0.01);
+    CHECK_NOTHROW(s.problem.require_valid());
+    REQUIRE(s.problem.experiments.size() == 2);
+    CHECK(s.problem.experiments[1].name == "few");
+    CHECK(s.problem.experiments[1].outliers < few.outliers);
+    problem.experiments = {at_begin};
+    CHECK(suspect_of(problem, f, laws, 0.15, 0.01).problem.experiments.empty());
+}
+
+TEST_CASE("a second sensor of a state does not stand for the suspect one") {
+    draws d(46);
+    auto problem = two_speeds(d);
+    auto& model = problem.model;
+    model.about.channels.push_back(model.about.channels[1]);
+    model.about.channels.back().name = "twin";
+    model.observe.push_back(model.observe[1]);
+    auto& e = problem.experiments[0];
+    std::erase_if(e.measurements,
+                  [](measurement const& m) { return m.channel == 1 && m.time > 0.15; });
+    for (int k = 1; k < 40; ++k) e.measurements.push_back({0.1 * k, 2, between(-9, 9)});
+    auto const shown = [](identification_problem const& p) {
+        auto const bound = bind(p.model, p.choice, {sampled_signal({0.0}, {0.0}, {})});
+        return measured_states(bound, {&p.experiments[0]})[1];
+    };
+    CHECK(shown(problem) == 1U);
+    faulty_channel const f{1, 1, between(-0.1, 0.1), interval(0.0), interval(0.0), {}, 0.3};
+    auto const s = suspect_of(problem, f, {{"S", {{0.1, 1}, {0.1, 2}}}}, 0.2, 0.01);
+    CHECK_FALSE(shown(s.problem)); // its only reading is of before the begin
+}
+
+TEST_CASE("readings without a bound on some side say nothing of what a sensor may do") {
+    draws d(47);
+    auto const bounded = two_speeds(d);
+    auto problem = bounded;
+    auto more = problem.experiments[0];
+    more.name = "more";
+    for (auto& m : more.measurements)
+        m.bound = interval_traits<interval>::bounds(m.bound.lower(), HUGE_VAL);
+    problem.experiments.push_back(more);
+    auto const f = faults_of(problem, {0, 1}, 1, {});
+    auto const same = faults_of(bounded, {0, 1}, 1, {});
+    CHECK(equal(f.offset, same.offset));
+    CHECK(equal(f.drift, same.drift));
+    auto const [delays, half] = delay_slices(problem, f, 40);
+    CHECK(delays == delay_slices(bounded, same, 40).first);
+    CHECK(half > 0);
+}

@@ -84,3 +84,25 @@ TEST_CASE("what the user declares is taken as it is, and what nobody measured is
     CHECK(plain[1].variation != 1.2345);
     CHECK(std::isfinite(plain[0].variation));
 }
+
+TEST_CASE("one reading without a bound leaves the laws of all experiments finite") {
+    draws d(12);
+    auto const m = pendulum();
+    auto const model = bound_pendulum(m);
+    std::vector<sampled_signal> const inputs{sine_input(1, 1, 5)};
+    auto const truth = simulate(m, {1, 0, 1}, inputs, {0.2, 1}, 5);
+    box const prior{between(0, 2), between(0, 1), between(0, 1)};
+    std::vector<experiment> all;
+    for (char const* name : {"S0", "S1"})
+        all.push_back(measured(d, name, truth, inputs, {0, 1}, 0.02, noise::uniform));
+    std::vector<experiment const*> const both{&all[0], &all[1]};
+    auto const channels = measured_states(model, both);
+    auto const before = laws_above_model(model, prior, both, channels, {});
+    auto& bound = all[1].measurements.back().bound; // of the rate
+    bound = interval_traits<interval>::bounds(bound.lower(), HUGE_VAL);
+    auto const after = laws_above_model(model, prior, both, channels, {});
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(after[0][i].variation < 1.2 * before[0][i].variation);
+        CHECK(after[0][i].variation >= true_variation(truth, i));
+    }
+}

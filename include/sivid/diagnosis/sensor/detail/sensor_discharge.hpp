@@ -125,7 +125,7 @@ private:
     /// Whether a definition excludes all faults in some ranges.
     [[nodiscard]] bool impossible(faulty_channel const& s, double delay, double half) const {
         auto const faulty = suspect_of(*problem_, s, laws_, delay, half);
-        if (faulty.problem.experiments.empty()) return false; // nothing is seen that late
+        if (faulty.problem.experiments.empty()) return false;
         relation_examiner examiner(faulty.problem, options_, &faulty.sensor);
         return std::any_of(definitions_.begin(), definitions_.end(),
                            [&](auto i) { return examiner.examine(i).proved; });

@@ -27,7 +27,7 @@ namespace sivid {
 /// instrument that is mounted askew) and of those whose unit is that by a length (a lever arm).
 struct sensor_fault_ranges {
     double scale = 0.1;   ///< |s|
-    double offset = 0.1;  ///< |b| and |d t|, each as a share of what the channel's values span
+    double offset = 0.1;  ///< |b| and |d t|, each as a share of what its bounded readings span
     double mixing = 0.12; ///< |c| within one unit: 0.12 rad askew
     double arm = 0.1;     ///< |c| of a lever arm [m]
     double latency = 0.2; ///< most delay [s]
@@ -77,7 +77,7 @@ faults_of(identification_problem const& problem,
     double low = HUGE_VAL, high = -HUGE_VAL, longest = 0, latest = 0;
     for (auto const& e : problem.experiments) {
         for (auto const& m : e.measurements) {
-            if (m.channel != result.channel) continue;
+            if (m.channel != result.channel || !is_bounded(m.bound)) continue;
             low = std::min(low, m.bound.lower());
             high = std::max(high, m.bound.upper());
             longest = std::max(longest, m.time - e.begin);
@@ -102,8 +102,8 @@ faults_of(identification_problem const& problem,
 }
 
 /// A problem about what a faulty sensor shows, re-timed for delays around one value: its model
-/// takes that for the state and corrects it by unknown constants. Experiments that the delay leaves
-/// no measurement are left out; there may be none.
+/// takes that for the state and corrects it by unknown constants. Experiments of which no reading
+/// is left after their begin are not in it: it may have none.
 struct suspect_problem {
     identification_problem problem;
     suspected_sensor sensor;
@@ -138,13 +138,15 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
     auto const plain = [](node const& n, graph& to) {
         return to.leaf(n.op, static_cast<std::size_t>(n.index));
     };
+    // In other channels, too: one that shows the same state is right.
     auto const corrected = [&](node const& n, graph& to) {
         auto const k = static_cast<std::size_t>(n.index);
         return n.op == operation::state && k == f.state ? state : to.leaf(n.op, k);
     };
     model.stated.reset();
     model.rate = copy_into(g, source.model.g, source.model.rate, corrected);
-    model.observe = copy_into(g, source.model.g, source.model.observe, plain);
+    model.observe = copy_into(g, source.model.g, source.model.observe, corrected);
+    model.observe[f.channel] = shown;
     for (auto& a : model.added_states) {
         a.at_begin = copy_into(g, source.model.g, {a.at_begin}, plain).front();
     }
@@ -170,36 +172,38 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
         bool undefined = false;
         e.initial[f.state] = traits::div(traits::sub(e.initial[f.state], off),
                                          traits::add(traits::point(1.0), f.scale), undefined);
-        // Late by delay: what is shown at t belongs to t - delay; and may have moved by half.
-        auto const samples = state_samples::sensed(e, f.channel);
-        auto const steepest = [&](double t) {
-            double rate = 0;
-            for (std::size_t k = 0; k + 1 < samples.times.size(); ++k) {
-                double const gap = samples.times[k + 1] - samples.times[k];
-                double const near = std::max(1.5 * gap, half);
-                if (samples.times[k + 1] < t - near || samples.times[k] > t + near) {
-                    continue;
-                }
-                rate = std::max(rate, mag((samples.bounds[k + 1] - samples.bounds[k]) / gap));
-            }
-            // Beyond the first and the last sample nothing is seen.
-            bool const seen = samples.times.size() > 1 && samples.times.front() <= t - half &&
-                              t + half <= samples.times.back();
-            double const periods = seen ? 2 : std::max(2.0, std::ceil(half / law.period) + 1);
-            return rate + periods * law.variation;
-        };
-        record kept;
-        for (auto m : e.measurements) {
-            if (m.channel == f.channel) {
-                double const more = half > 0 ? half * steepest(m.time) * (1 + 1e-9) : 0;
-                m.bound = traits::add(m.bound, traits::bounds(-more, more));
-                m.time -= delay;
-                if (m.time < e.begin + half) continue; // of before the begin
-            }
-            kept.push_back(m);
-        }
-        e.measurements = std::move(kept);
+        // Late by delay: what is shown at t belongs to t - delay, which is rounded, and may be half
+        // away from that. Readings of before the begin tell nothing.
+        std::erase_if(e.measurements, [&](measurement const& m) {
+            return m.channel == f.channel && m.time - delay < e.begin + half;
+        });
         e.outliers = std::min(e.outliers, e.measurements.size());
+        auto const samples = state_samples::sensed(e, f.channel).bounded();
+        auto const& times = samples.times;
+        // The greatest rate within some time of t: in each gap, of which the first and the last one
+        // go on beyond the samples, it is off the secant by no more than it varies by there.
+        auto const steepest = [&](double t, double near) {
+            double rate = times.size() > 1 ? 0 : HUGE_VAL;
+            for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+                double const from = k == 0 ? std::min(times[k], t - near) : times[k];
+                double const to =
+                    k + 2 == times.size() ? std::max(times[k + 1], t + near) : times[k + 1];
+                if (to < t - near || from > t + near) continue;
+                double const gap = times[k + 1] - times[k];
+                rate = std::max(rate, mag((samples.bounds[k + 1] - samples.bounds[k]) / gap) +
+                                          channel_tube::in_gaps(law, {from, to}).front());
+            }
+            return rate;
+        };
+        for (auto& m : e.measurements) {
+            if (m.channel != f.channel) continue;
+            double const moved = m.time - delay;
+            auto const late = traits::sub(traits::point(m.time), traits::point(moved));
+            double const near = half + mag(traits::sub(late, traits::point(delay)));
+            double const more = near > 0 ? near * steepest(m.time, near) * (1 + 1e-9) : 0;
+            m.bound = traits::add(m.bound, traits::bounds(-more, more));
+            m.time = moved;
+        }
     }
     std::erase_if(problem.experiments, [](experiment const& e) { return e.measurements.empty(); });
     return result;
@@ -213,7 +217,7 @@ delay_slices(identification_problem const& problem, faulty_channel const& f,
     // As long as the channel takes to move by its error where it is fast.
     std::vector<double> lengths;
     for (auto const& e : problem.experiments) {
-        auto const s = state_samples::sensed(e, f.channel);
+        auto const s = state_samples::sensed(e, f.channel).bounded();
         for (std::size_t k = 0; k + 1 < s.times.size(); ++k) {
             double const rate =
                 mag((s.bounds[k + 1] - s.bounds[k])) / (s.times[k + 1] - s.times[k]);

@@ -45,7 +45,7 @@ find_rate_scales(bound_model const& model, box const& prior, experiment const& e
     std::vector<double> times;
     for (std::size_t i = 0; i < n; ++i) {
         if (!channels[i]) continue;
-        data[i] = state_samples::of(e, i, *channels[i]).without_vague_start();
+        data[i] = state_samples::of(e, i, *channels[i]).bounded().without_vague_start();
         times.insert(times.end(), data[i]->times.begin(), data[i]->times.end());
         result.period[i] = data[i]->period();
     }
