@@ -277,3 +277,36 @@ TEST_CASE("identify begins with it where runs over the prior end early") {
     CHECK_FALSE(without.windows.has_value());
     CHECK(contains(without.hull, truth));
 }
+
+TEST_CASE("slow and fast processes are told as well as those of seconds") {
+    // x0' = p0 - p1 x0, of which the integral is read 40 times, in other units of time.
+    auto const m = support::model_of({2, 2, 0, 1e9},
+                                     [](auto const&, auto const& x, auto const& p, auto const&) {
+                                         return std::vector{p[0] - p[1] * x[0], x[0]};
+                                     });
+    for (double const unit : {1.0, 1e-5, 1e-2, 300.0, 1e6}) {
+        std::vector<double> const truth{1.2 / unit / unit, 1.5 / unit};
+        double const rest = truth[0] / truth[1], start = 0.5 / unit;
+        identification_problem problem{
+            m,
+            {support::all_constants(2), {}},
+            box{between(0.8 / unit / unit, 2 / unit / unit), between(1 / unit, 2 / unit)},
+            {}};
+        experiment e{"S", {}, 0, box{around(start, 0.1 / unit), around(0, 0.001)}, {}, 0};
+        for (int k = 1; k <= 40; ++k) {
+            double const t = 0.1 * k * unit;
+            double const q = rest * t + (start - rest) * (1 - std::exp(-truth[1] * t)) / truth[1];
+            e.measurements.push_back({t, 1, around(q, 0.002)});
+        }
+        problem.experiments.push_back(e);
+        std::size_t asked = 0;
+        relation_contraction_options how;
+        how.rounds = 1;
+        how.keep_going = [&asked] { return ++asked > 0; };
+        auto const left = contract_by_relations(problem, how);
+        INFO(unit);
+        CHECK(contains(left, truth));
+        CHECK(asked < 2000);
+        for (std::size_t j = 0; j < 2; ++j) CHECK(width(left[j]) < 0.9 * width(problem.prior[j]));
+    }
+}

@@ -66,7 +66,7 @@ struct relation_finding {
 
 /// How relations are examined.
 struct relation_options {
-    double shortest = 0.3, longest = 10; ///< of the windows [s]
+    double shortest = 0.3, longest = 10; ///< of the windows [s]; see `weak_equation::over`, too
     /// Declared bounds on how much the rate of a state varies from one sample to the next, by the
     /// state's name, in its unit per s; states that are not named get a default (see
     /// `declare_variations`).

@@ -6,6 +6,7 @@
 #include <sivid/paving/relation/detail/relation_row.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -30,13 +31,14 @@ public:
     explicit weak_equation(parted_functions const& functions)
         : functions_(&functions), times_(functions.times()) {}
 
-    /// Windows of some lengths between `shortest` and `longest` under bumps; and, where starts are
-    /// known, such that begin with the motion.
+    /// Windows under bumps, and, where starts are known, such that begin with the motion. Of some
+    /// lengths between `shortest` and `longest`; of shorter ones where the record is not eight
+    /// times as long as the shortest, and of longer ones where its gaps are.
     /// @param go_on  false ends with those found by then; may be empty
     [[nodiscard]] std::vector<window_row> over(std::size_t index, double shortest, double longest,
                                                std::function<bool()> const& go_on = {}) const {
         std::vector<window_row> result;
-        if (times_.empty()) return result;
+        if (times_.size() < 3) return result; // a window spans two gaps at least
         auto const add = [&](std::size_t a, std::size_t b, auto const& weight) {
             std::vector<double> phi;
             for (std::size_t k = a; k <= b; ++k)
@@ -56,13 +58,24 @@ public:
                 std::lower_bound(times_.begin(), times_.end(), t - 1e-9 * (times_[1] - times_[0])) -
                 times_.begin());
         };
-        longest = std::min(longest, all) * (1 + 1e-9);
-        for (double length = shortest; length <= longest; length *= 1.3) {
-            for (double from = times_.front(); from + length <= times_.back() * (1 + 1e-12);
-                 from += length / 6) {
+        double least_gap = all;
+        for (std::size_t k = 0; k + 1 < times_.size(); ++k)
+            least_gap = std::min(least_gap, times_[k + 1] - times_[k]);
+        double length = shortest;
+        while (8 * length > all) length /= 1.3;
+        while (length < least_gap) length *= 1.3;
+        longest = std::min(std::max(1.0, length / shortest) * longest, all) * (1 + 1e-9);
+        for (; length <= longest; length *= 1.3) {
+            double const step = length / 6;
+            double from = times_.front();
+            for (std::size_t a = 0;; ++a) {
                 if (go_on && !go_on()) return result;
-                auto const a = first_after(from), b = first_after(times_[a] + length);
-                if (b < times_.size() && b > a + 1) add(a, b, bump);
+                a = std::max(a, first_after(from));
+                if (a >= times_.size()) break;
+                auto const b = first_after(times_[a] + length);
+                if (b >= times_.size()) break;
+                if (b > a + 1) add(a, b, bump);
+                from += step * (1 + std::floor(std::max(times_[a] - from, 0.0) / step));
             }
         }
         if (!starts_known()) return result;
