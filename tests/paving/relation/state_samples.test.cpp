@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <sivid/paving/relation/channel_tube.hpp>
 #include <sivid/paving/relation/state_samples.hpp>
 
 #include "diagnosis/planted_motion.hpp"
@@ -51,7 +52,8 @@ TEST_CASE("samples begin with the initial box, and agree at equal times") {
     CHECK(alone.times == s.times);
     CHECK(equal(alone.bounds[0], between(0.5, 4))); // without the initial state
     CHECK(state_samples::sensed(e, 2).times.empty());
-    CHECK(s.period() == 1);
+    CHECK_THAT(s.period(), WithinAbs(1, 1e-14));
+    CHECK(s.spacing() == s.period());
     CHECK(equal(*s.near(0.5), between(0, 3)));
     CHECK_FALSE(s.near(-1));
     CHECK_FALSE(s.near(3));
@@ -88,4 +90,24 @@ TEST_CASE("a start of which nothing is known is no sample to measure rates by") 
     CHECK(told.bounds.size() == 3);
     CHECK(state_samples{{0.0}, {between(0, 1)}}.period() == 1);
     CHECK(state_samples{{0.0}, {between(0, 1)}}.greatest_secant(3) == 0);
+}
+
+TEST_CASE("equal gaps are one period each, whatever the size of the time stamps") {
+    for (double const begin : {0.0, -1e5, 1.7e9}) {
+        auto e = start_at(between(-1, 1));
+        e.begin = begin;
+        for (int k = 1; k <= 200; ++k) e.measurements.push_back({begin + 0.01 * k, 0, {}});
+        auto const s = state_samples::of(e, 0, 0);
+        CHECK_THAT(s.period(), WithinRel(0.01, 1e-4));
+        for (double const v : channel_tube::in_gaps({s.period(), 1}, s.times)) CHECK(v < 1.001);
+    }
+}
+
+TEST_CASE("samples that are close together do not stand for the others") {
+    auto e = start_at(between(-1, 1));
+    for (int k = 1; k <= 40; ++k)
+        for (int n = 0; n < 3; ++n) e.measurements.push_back({k + 1e-6 * n, 0, {}});
+    auto const s = state_samples::of(e, 0, 0);
+    CHECK(s.period() < 1e-5);
+    CHECK_THAT(s.spacing(), WithinAbs(1 / 12.0, 1e-3));
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -48,14 +49,23 @@ struct state_samples {
         return state_samples{{e.begin}, {e.initial[state]}}.with(e, channel);
     }
 
-    /// The median of the gaps; 1 if there is none.
+    /// The median of the gaps, longer by what stamps of such times are rounded by, so that equal
+    /// gaps are one period each; 1 if there is none.
     [[nodiscard]] double period() const {
         std::vector<double> gaps;
         for (std::size_t k = 0; k + 1 < times.size(); ++k) gaps.push_back(times[k + 1] - times[k]);
         if (gaps.empty()) return 1;
         auto const middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
         std::nth_element(gaps.begin(), middle, gaps.end());
-        return *middle;
+        double const latest = std::max(std::abs(times.front()), std::abs(times.back()));
+        return *middle + 2 * std::numeric_limits<double>::epsilon() * latest;
+    }
+    /// How far apart samples mostly are: a period, or a quarter of the mean gap where that is
+    /// longer, lest a few that are close together stand for all.
+    [[nodiscard]] double spacing() const {
+        if (times.size() < 2) return period();
+        double const all = times.back() - times.front();
+        return std::max(period(), all / static_cast<double>(4 * (times.size() - 1)));
     }
     /// Without those that have no bound on some side: of them no rate can be told.
     [[nodiscard]] state_samples bounded() const {

@@ -106,3 +106,21 @@ TEST_CASE("one reading without a bound leaves the laws of all experiments finite
         CHECK(after[0][i].variation >= true_variation(truth, i));
     }
 }
+
+TEST_CASE("where there is no time nothing is known of what was not declared") {
+    draws d(13);
+    auto const m = pendulum();
+    auto const model = bound_pendulum(m);
+    std::vector<sampled_signal> const inputs{sine_input(1, 1, 5)};
+    auto const truth = simulate(m, {1, 0, 1}, inputs, {0.2, 1}, 5);
+    auto const e = measured(d, "S", truth, inputs, {0, 1}, 0.02, noise::uniform);
+    box const prior{between(0, 2), between(0, 1), between(0, 1)};
+    for (int const most : {0, 1, 3}) {
+        int asked = 0;
+        auto const law = laws_above_model(model, prior, {&e}, measured_states(model, {&e}),
+                                          {{"x1", 7.5}}, [&] { return asked++ < most; });
+        CHECK(asked <= most + 1);
+        CHECK(law[0][1].variation == 7.5);
+        if (asked > most) CHECK(law[0][0].variation == 1e100);
+    }
+}

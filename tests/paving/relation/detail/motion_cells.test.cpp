@@ -89,3 +89,15 @@ TEST_CASE("a motion that its equation does not determine is not lost") {
     CHECK(x.lower() <= 0);
     CHECK(x.upper() >= 0.25);
 }
+
+TEST_CASE("readings that are close together do not cut the whole record as finely") {
+    auto const m = support::model_of({1, 1, 0}, [](expression const&, list const& x, list const& p,
+                                                   list const&) { return list{p[0] * x[0]}; });
+    experiment e{"S", {}, 0, box{between(-1, 1)}, {}, 0};
+    for (int k = 1; k <= 40; ++k)
+        for (int n = 0; n < 3; ++n) e.measurements.push_back({k + 1e-6 * n, 0, between(-1, 1)});
+    auto const model = bind(m, {support::all_constants(1), {}}, {});
+    motion_cells const cells(model, box{between(-1, 0)}, e, {{0}}, true);
+    CHECK(cells.size() < 20 * e.measurements.size());
+    CHECK(cells.size() > 4 * e.measurements.size() / 3);
+}

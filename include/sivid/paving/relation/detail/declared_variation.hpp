@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -133,15 +134,17 @@ declare_variations(bound_model const& model, std::vector<rate_scales> const& sca
 /// period's length, along any motion of the model that meets the bounds, and along any in the tubes
 /// that the declared variations leave. Infinite (1e100) where no such bound is found: the samples
 /// are too far apart for the motion.
-/// @param own  declared by the user: kept
+/// @param own    declared by the user: kept
+/// @param go_on  asked now and then; once false, what is not declared by the user has no bound; may
+///               be empty
 /// @throws std::invalid_argument if the user's declaration is less than what the model's rate
 ///         varies by for every parameter of the prior
 [[nodiscard]] inline std::vector<rate_variation>
 above_model(bound_model const& model, box const& prior, experiment const& e,
             std::vector<std::optional<std::size_t>> const& channels,
-            std::vector<rate_variation> laws, std::map<std::string, double> const& own) {
+            std::vector<rate_variation> laws, std::map<std::string, double> const& own,
+            std::function<bool()> const& go_on = {}) {
     auto const n = model.state_count();
-    model_variation const by_model(model, prior, e, channels);
     std::vector<double> declared, periods;
     std::vector<bool> fixed;
     for (std::size_t i = 0; i < n; ++i) {
@@ -149,6 +152,13 @@ above_model(bound_model const& model, box const& prior, experiment const& e,
         periods.push_back(laws[i].period);
         fixed.push_back(!channels[i] || own.count(model.about.states[i].name) > 0);
     }
+    auto const open = [&] {
+        for (std::size_t i = 0; i < n; ++i)
+            if (!fixed[i]) laws[i].variation = 1e100;
+        return laws;
+    };
+    if (go_on && !go_on()) return open();
+    model_variation const by_model(model, prior, e, channels);
     auto const whole = by_model.of_model(periods);
     auto const shown = [](double v) { // two digits, upward, so that it reads well
         if (!(v > 0) || !std::isfinite(v)) return v;
@@ -160,6 +170,7 @@ above_model(bound_model const& model, box const& prior, experiment const& e,
     }
     constexpr int patience = 25; // then what still grows has no bound
     for (int pass = 0;; ++pass) {
+        if (go_on && !go_on()) return open();
         auto const found = by_model.in_tubes(declared, periods);
         bool grew = false;
         for (std::size_t i = 0; i < n; ++i) {
@@ -185,18 +196,17 @@ above_model(bound_model const& model, box const& prior, experiment const& e,
 /// Declared variations of several experiments and their states: by the data, the user and the
 /// model.
 /// @throws std::invalid_argument  as above
-[[nodiscard]] inline std::vector<std::vector<rate_variation>>
-laws_above_model(bound_model const& model, box const& prior,
-                 std::vector<experiment const*> const& experiments,
-                 std::vector<std::optional<std::size_t>> const& channels,
-                 std::map<std::string, double> const& own) {
+[[nodiscard]] inline std::vector<std::vector<rate_variation>> laws_above_model(
+    bound_model const& model, box const& prior, std::vector<experiment const*> const& experiments,
+    std::vector<std::optional<std::size_t>> const& channels,
+    std::map<std::string, double> const& own, std::function<bool()> const& go_on = {}) {
     std::vector<rate_scales> scales;
     for (auto const* e : experiments) {
         scales.push_back(find_rate_scales(model, prior, *e, channels));
     }
     auto result = declare_variations(model, scales, own);
     for (std::size_t e = 0; e < experiments.size(); ++e) {
-        result[e] = above_model(model, prior, *experiments[e], channels, result[e], own);
+        result[e] = above_model(model, prior, *experiments[e], channels, result[e], own, go_on);
     }
     return result;
 }

@@ -52,19 +52,19 @@ public:
         auto const n = model.state_count();
         for (auto const& s : model.about.states) limits_.push_back(believed ? s.limit : HUGE_VAL);
         std::vector<double> times;
-        double period = HUGE_VAL;
+        double spacing = HUGE_VAL;
         samples_.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
             if (!channels[i]) continue;
             samples_[i] = state_samples::of(e, i, *channels[i]);
             auto const& own = samples_[i]->times;
             times.insert(times.end(), own.begin(), own.end());
-            if (own.size() > 1) period = std::min(period, samples_[i]->period());
+            if (own.size() > 1) spacing = std::min(spacing, samples_[i]->spacing());
         }
         for (auto const& p : pairs_in(*g_, model.rate))
             if (samples_[p.q] && !samples_[p.r]) pairs_.push_back(p);
         set_ = integrand_set::of(*g_, model.rate, n, e.inputs.size());
-        cut(std::move(times), period, e);
+        cut(std::move(times), spacing, e);
     }
 
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
@@ -208,8 +208,8 @@ public:
     }
 
 private:
-    void cut(std::vector<double> times, double period, experiment const& e) {
-        if (times.empty() || !std::isfinite(period)) return;
+    void cut(std::vector<double> times, double spacing, experiment const& e) {
+        if (times.empty() || !std::isfinite(spacing)) return;
         std::sort(times.begin(), times.end());
         double const end = times.back();
         if (!(end > e.begin)) return;
@@ -222,7 +222,7 @@ private:
                 if (t > e.begin && t < end) times.push_back(t);
             }
         }
-        auto const grid = refined_times(std::move(times), period / pieces);
+        auto const grid = refined_times(std::move(times), spacing / pieces);
         for (std::size_t k = 0; k + 1 < grid.size(); ++k) {
             cell c{grid[k], grid[k + 1], box(e.inputs.size()), {}};
             for (std::size_t u = 0; u < e.inputs.size(); ++u) {

@@ -113,7 +113,7 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
     result.start = e.initial;
     result.tubes.resize(n);
     result.sensed.resize(n);
-    double period = HUGE_VAL;
+    double spacing = HUGE_VAL;
     double end = e.begin;
     for (std::size_t i = 0; i < n; ++i) {
         bool const derived = !channels[i] && i < known.derived.size() && known.derived[i];
@@ -133,7 +133,7 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
                 alone.times, alone.bounds, {variations.begin() + skipped, variations.end()});
         }
         result.boundaries.insert(result.boundaries.end(), s.times.begin(), s.times.end());
-        if (s.times.size() > 1) period = std::min(period, s.period());
+        if (s.times.size() > 1) spacing = std::min(spacing, s.spacing());
         end = std::max(end, s.times.back());
     }
     if (!(end > e.begin)) return result;
@@ -145,7 +145,7 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
         }
     }
     result.boundaries =
-        refined_times(std::move(result.boundaries), period / static_cast<double>(cells_per_gap));
+        refined_times(std::move(result.boundaries), spacing / static_cast<double>(cells_per_gap));
     for (std::size_t c = 0; c + 1 < result.boundaries.size(); ++c) {
         double const from = result.boundaries[c];
         double const to = result.boundaries[c + 1];

@@ -221,7 +221,7 @@ private:
     laws_of(std::vector<experiment const*> const& trusted) const {
         if (suspect_ == nullptr) {
             return laws_above_model(model_, problem_->prior, trusted, channels_,
-                                    options_.rate_variation);
+                                    options_.rate_variation, options_.go_on);
         }
         std::vector<std::vector<rate_variation>> result;
         for (auto const* e : trusted) result.push_back(suspect_->laws.at(e->name));
