@@ -24,12 +24,12 @@
 #include <sivid/io/identification_reader.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/io/scenario.hpp>
-#include <sivid/io/text/sha256.hpp>
 #include <sivid/io/text/text_file.hpp>
 #include <sivid/model/closed_loop.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/named_effects.hpp>
+#include <sivid/number/text/sha256.hpp>
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>

@@ -13,7 +13,7 @@
 #include <sivid/cluster/wire.hpp>
 #include <sivid/cluster/worker.hpp>
 #include <sivid/cluster/worker_pool.hpp>
-#include <sivid/io/text/sha256.hpp>
+#include <sivid/number/text/sha256.hpp>
 
 #include <chrono>
 #include <cstdint>

@@ -30,6 +30,7 @@
 #include <sivid/number/stream.hpp>
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/text/nearest_text.hpp>
+#include <sivid/number/text/sha256.hpp>
 #include <sivid/number/traits_by_bounds.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
@@ -79,6 +80,7 @@
 #include <sivid/model/named_effects.hpp>
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/problem_text.hpp>
 #include <sivid/model/series/series.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
 #include <sivid/model/structure/combination.hpp>

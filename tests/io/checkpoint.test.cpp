@@ -16,6 +16,7 @@ namespace {
 identification_state some_state() {
     identification_state s;
     s.seconds = 0.5;
+    s.problem = "asked";
     auto& search = s.search;
     search.prior = search.whole = search.last_hull = box{interval(0, 1)};
     search.paved = {{box{interval(0, 0.25)}, box_verdict::outside},
@@ -30,10 +31,11 @@ identification_state some_state() {
 
 TEST_CASE("a checkpoint states format, digest and exact numbers, line by line") {
     auto const text = checkpoint_text(some_state(), "a-problem");
-    CHECK(text.rfind("sivid-checkpoint-5\nsha256 ", 0) == 0);
+    CHECK(text.rfind("sivid-checkpoint-6\nsha256 ", 0) == 0);
     auto const body = text.substr(text.find('\n', text.find('\n') + 1) + 1);
     CHECK(text.find(sha256(body)) != std::string::npos);
     CHECK(body.find("problem a-problem\n") != std::string::npos);
+    CHECK(body.find("asked asked\n") != std::string::npos);
     CHECK(body.find("no_guess\n") != std::string::npos);
     CHECK(body.find("paved 2\no ") != std::string::npos);
     CHECK(body.find("\ni " + std::string{to_hex(0.25)} + " " + to_hex(0.5)) != std::string::npos);

@@ -2,6 +2,7 @@
 // Whole identifications with a planted truth.
 #include <sivid/paving/identify.hpp>
 
+#include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 #include "support/power_series.hpp"
 #include "support/problems.hpp"
@@ -10,6 +11,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <vector>
 
 using namespace sivid;
 using support::between;
@@ -334,4 +339,44 @@ TEST_CASE("a fit that stops just short of the bounds is sharpened before nothing
         CHECK(found.guess->inflation <= 1);
     }
     CHECK(tried > 0);
+}
+
+TEST_CASE("a state of other data is not resumed, nor one that has lost what explains the data") {
+    auto const with_rate = [](double rate) {
+        auto problem = plain_problem::make(0, 1);
+        for (auto& m : problem.experiments[0].measurements) {
+            double const x = 2 * std::exp(-rate * m.time);
+            m.bound = interval(x - 0.05, x + 0.05);
+        }
+        return problem;
+    };
+    identify_options options;
+    options.search.accuracy = 1.0 / 4096;
+    options.search.sufficient_ratio = 1;
+    options.search.seconds = 30;
+    auto first = options;
+    first.search.boxes = 20;
+    std::optional<identification_state> saved;
+    first.checkpoint = [&](identification_state const& s) { saved = s; };
+    (void)identify(with_rate(0.35), first);
+    REQUIRE(saved);
+    auto const resumed = [&](identification_problem const& problem, identification_state const& s) {
+        auto going_on = options;
+        going_on.resume = std::make_shared<identification_state const>(s);
+        return identify(problem, going_on);
+    };
+    CHECK(contains(resumed(with_rate(0.35), *saved).hull, std::vector<double>{0.35}));
+    CHECK_THROWS_WITH(resumed(with_rate(0.8), *saved), ContainsSubstring("another problem"));
+    auto fewer = with_rate(0.35); // the same readings, all of which must hold
+    fewer.experiments[0].outliers = 0;
+    CHECK_THROWS_AS(resumed(fewer, *saved), std::invalid_argument);
+    auto forged = *saved; // what is excluded, and nothing else
+    forged.search.paved = {{forged.search.prior, box_verdict::outside}};
+    forged.search.waiting.clear();
+    forged.search.lessons.clear();
+    forged.search.waiting_volume = 0;
+    CHECK_THROWS_AS(resumed(with_rate(0.35), forged), std::logic_error);
+    forged = {};
+    forged.search = saved->search;
+    CHECK_THROWS_AS(resumed(with_rate(0.35), forged), std::invalid_argument);
 }

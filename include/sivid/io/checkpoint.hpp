@@ -5,8 +5,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/io/result/certificates_csv.hpp>
 #include <sivid/io/text/durable_file.hpp>
-#include <sivid/io/text/sha256.hpp>
 #include <sivid/number/decimal_output.hpp>
+#include <sivid/number/text/sha256.hpp>
 #include <sivid/paving/identification_state.hpp>
 #include <sivid/version.hpp>
 
@@ -21,7 +21,7 @@ namespace sivid {
 
 namespace io_detail {
 
-inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-5";
+inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-6";
 
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
@@ -110,6 +110,7 @@ inline void put(checkpoint_lines& line, search_state const& s) {
     io_detail::checkpoint_lines line;
     line("version", version);
     line("problem", std::string_view{problem});
+    line("asked", std::string_view{state.problem});
     line("spent", state.seconds);
     if (state.guess) {
         put(line, *state.guess);

@@ -8,7 +8,7 @@
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/io/result/reach_json.hpp>
 #include <sivid/io/text/json_writer.hpp>
-#include <sivid/io/text/sha256.hpp>
+#include <sivid/number/text/sha256.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>

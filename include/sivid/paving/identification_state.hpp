@@ -7,6 +7,7 @@
 #include <sivid/paving/search/search_state.hpp>
 
 #include <optional>
+#include <string>
 
 namespace sivid {
 
@@ -17,6 +18,7 @@ struct identification_state {
     double seconds = 0; ///< spent before the search
     std::optional<window_contraction> windows;
     search_state search;
+    std::string problem = {}; ///< a digest of what is searched: nothing else goes on from here
 };
 
 } // namespace sivid

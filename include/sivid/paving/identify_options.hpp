@@ -53,9 +53,9 @@ struct identify_options {
     /// Called with the state every `search.checkpoint_seconds` of the search and when a budget ends
     /// it (in place of `search.checkpoint`).
     std::function<void(identification_state const&)> checkpoint = nullptr;
-    /// Goes on from here (in place of `search.resume`): for the same problem and options but for
-    /// budgets and threads. The result is the one of an uninterrupted run, bit for bit, on the same
-    /// program and kind of processor; proved it is on any.
+    /// Goes on from here (in place of `search.resume`): for the same problem, by its digest, and
+    /// options but for budgets and threads. The result is the one of an uninterrupted run, bit for
+    /// bit, on the same program and kind of processor; proved it is on any.
     std::shared_ptr<identification_state const> resume = nullptr;
     /// Searches in place of `invert`, with the same result: on many machines, say. It is told the
     /// fit and the windows by which the test was prepared.

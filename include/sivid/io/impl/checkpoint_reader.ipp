@@ -27,8 +27,8 @@ public:
     void header() {
         next();
         if (line_text_ != checkpoint_format) {
-            refuse("it is no checkpoint, or of an unknown format",
-                   "name the right file, or remove it and begin anew");
+            refuse("it is no checkpoint, or one that another version of sivid wrote",
+                   "name the right file, resume it with that version, or remove it and begin anew");
         }
         auto const stated = open("sha256").word();
         close();
@@ -233,6 +233,8 @@ SIVID_DECL identification_state parse_checkpoint(std::string_view text, std::str
                   "use what it was begun with, or remove it and begin anew");
     }
     identification_state state;
+    state.problem = in.open("asked").word();
+    in.close();
     state.seconds = in.open("spent").number();
     in.close();
     auto const guess = in.open();

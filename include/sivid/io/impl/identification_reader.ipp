@@ -9,8 +9,8 @@
 #include <sivid/io/result/detail/stored_identification.hpp>
 #include <sivid/io/text/csv_table.hpp>
 #include <sivid/io/text/json_document.hpp>
-#include <sivid/io/text/sha256.hpp>
 #include <sivid/io/text/text_file.hpp>
+#include <sivid/number/text/sha256.hpp>
 
 #include <array>
 #include <cmath>

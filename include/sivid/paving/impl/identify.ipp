@@ -6,6 +6,8 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/model/problem_text.hpp>
+#include <sivid/number/text/sha256.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
@@ -66,6 +68,27 @@ inline void find_witness(data_test& test, identification_problem const& working,
     }
 }
 
+/// Whether a box meets what is left.
+inline bool is_left(subpaving const& paving, box const& x) {
+    return std::any_of(paving.boxes().begin(), paving.boxes().end(), [&x](paved_box const& b) {
+        return b.verdict != box_verdict::outside && !is_empty(intersect(b.set, x));
+    });
+}
+
+/// A verified witness and the exclusion of its parameters contradict each other: one of them is no
+/// proof, and nothing is told.
+/// @throws std::logic_error
+inline void require_witness_left(identification const& found) {
+    if (!found.witness) return;
+    auto const at = point_box(found.witness->parameters);
+    bool const left = contains(found.hull, found.witness->parameters) && is_left(found.paving, at);
+    if (left &&
+        (!found.products || is_left(found.products->paving, found.products->map.forward(at))))
+        return;
+    throw std::logic_error("identify: parameters that explain the data were excluded: a state to "
+                           "resume from that was altered, or else a defect, please report it");
+}
+
 } // namespace paving_detail
 
 SIVID_DECL identification identify(identification_problem const& problem,
@@ -78,6 +101,12 @@ SIVID_DECL identification identify(identification_problem const& problem,
     work_limit limit(options.search.seconds - earlier, options.search.keep_going);
     options.test = limited(std::move(options.test), limit);
     auto const working = paving_detail::as_searched(problem, options.algorithm);
+    std::string asked_for; // only states know it
+    if (options.resume || options.checkpoint) asked_for = sha256(problem_text(working));
+    if (options.resume && options.resume->problem != asked_for)
+        throw std::invalid_argument("identify: the state to resume from is of another problem: "
+                                    "other data, another model or prior, or other budgets of "
+                                    "outliers; resume with what it was begun with, or begin anew");
     options.test = paving_detail::as_searched(std::move(options.test), options.algorithm);
     if (options.algorithm != algorithm::contracting) {
         options.search.order = search_order::first_in;
@@ -137,7 +166,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
     bool const prepared = options.resume || limit();
     if (options.checkpoint && prepared) {
         search.checkpoint = [&](search_state const& now) {
-            options.checkpoint({result.guess, spent, windows, now});
+            options.checkpoint({result.guess, spent, windows, now, asked_for});
         };
     }
     search.resume = nullptr;
@@ -216,6 +245,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
             }
         }
     }
+    paving_detail::require_witness_left(result);
     result.integrations += searched.integrations() - asking;
     if (in_parameters) result.integrations += in_parameters->integrations();
     if (windows) result.integrations += windows->windows + windows->integrations;

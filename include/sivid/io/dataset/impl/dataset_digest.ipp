@@ -6,8 +6,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/text/json_document.hpp>
-#include <sivid/io/text/sha256.hpp>
 #include <sivid/io/text/text_file.hpp>
+#include <sivid/number/text/sha256.hpp>
 
 #include <filesystem>
 #include <string>

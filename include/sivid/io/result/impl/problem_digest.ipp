@@ -8,14 +8,14 @@ namespace sivid {
 
 SIVID_DECL std::string problem_digest(identification_problem const& problem,
                                       identify_options const& options, std::string const& also) {
-    io_detail::canonical_text text;
+    model_detail::canonical_text text;
     describe(text, problem);
-    describe(text, options);
+    io_detail::describe(text, options);
     return sha256(text("also", also).text());
 }
 
 SIVID_DECL std::string problem_digest(identification_problem const& problem) {
-    io_detail::canonical_text text;
+    model_detail::canonical_text text;
     io_detail::describe_meaning(text, problem);
     return sha256(text.text());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_IO_TEXT_SHA256_HPP
-#define SIVID_IO_TEXT_SHA256_HPP
+#ifndef SIVID_NUMBER_TEXT_SHA256_HPP
+#define SIVID_NUMBER_TEXT_SHA256_HPP
 
 #include <array>
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace sivid {
 
-namespace io_detail {
+namespace detail {
 
 inline constexpr std::array<std::uint32_t, 64> sha256_constants{
     0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
@@ -61,7 +61,7 @@ inline void sha256_block(std::array<std::uint32_t, 8>& state, unsigned char cons
     for (std::size_t k = 0; k < 8; ++k) state[k] += s[k];
 }
 
-} // namespace io_detail
+} // namespace detail
 
 /// The SHA-256 digest of a text as 64 hexadecimal digits: texts with one digest are the same text,
 /// for all that is known.
@@ -74,7 +74,7 @@ inline void sha256_block(std::array<std::uint32_t, 8>& state, unsigned char cons
     auto const bytes = [](std::string_view part) {
         return reinterpret_cast<unsigned char const*>(part.data());
     };
-    for (; text.size() >= 64; text.remove_prefix(64)) io_detail::sha256_block(state, bytes(text));
+    for (; text.size() >= 64; text.remove_prefix(64)) detail::sha256_block(state, bytes(text));
     std::string padded{text};
     padded += static_cast<char>(0x80);
     while (padded.size() % 64 != 56) padded += '\0';
@@ -82,7 +82,7 @@ inline void sha256_block(std::array<std::uint32_t, 8>& state, unsigned char cons
         padded += static_cast<char>(static_cast<unsigned char>((bits >> shift) & 0xff));
     }
     for (std::string_view rest = padded; !rest.empty(); rest.remove_prefix(64)) {
-        io_detail::sha256_block(state, bytes(rest));
+        detail::sha256_block(state, bytes(rest));
     }
     std::string hex;
     for (auto const word : state) {
@@ -95,4 +95,4 @@ inline void sha256_block(std::array<std::uint32_t, 8>& state, unsigned char cons
 
 } // namespace sivid
 
-#endif // SIVID_IO_TEXT_SHA256_HPP
+#endif // SIVID_NUMBER_TEXT_SHA256_HPP

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/io/text/sha256.hpp>
+#include <sivid/number/text/sha256.hpp>
 
 #include "support/catch.hpp"
 
