@@ -7,9 +7,12 @@
 #include "support/catch.hpp"
 #include "support/problems.hpp"
 
+#include <chrono>
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <thread>
+#include <vector>
 
 using namespace sivid;
 using support::draws;
@@ -124,4 +127,19 @@ TEST_CASE("budgets end the work of all") {
     CHECK(found.reason == stop_reason::time_budget);
     CHECK(took < 3);
     CHECK(contains(found.hull, planted.truth));
+}
+
+TEST_CASE("helpers are let go when the work ends before it was handed out") {
+    draws d(7404);
+    auto const planted = support::plant(d, 0, {.experiments = 1, .samples = 8});
+    auto broken = planted.problem;
+    broken.experiments[0].measurements[0].bound = interval_traits<interval>::empty();
+    cluster::memory_transport office(2);
+    std::vector<std::thread> threads; // who nobody else lets go
+    for (auto& end : office.of_workers) {
+        threads.emplace_back(
+            [&planted, &end] { cluster::help_identify(*end, planted.problem, {}); });
+    }
+    CHECK_THROWS_AS(cluster::identify(*office.of_first, broken, {}), std::invalid_argument);
+    for (auto& t : threads) t.join();
 }

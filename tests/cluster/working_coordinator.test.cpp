@@ -58,3 +58,14 @@ TEST_CASE("those who wait for work that never came are released") {
     helper.join();
     CHECK_FALSE(office.of_first->receive());
 }
+
+TEST_CASE("they are released with the end of a life, unless work has come") {
+    memory_transport office(1);
+    for (bool const work : {true, false}) {
+        {
+            released_at_end idle(*office.of_first);
+            if (work) idle.work_has_come();
+        }
+        CHECK(office.of_workers[0]->receive().has_value() == !work);
+    }
+}

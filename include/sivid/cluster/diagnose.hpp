@@ -123,11 +123,13 @@ private:
                                             diagnosis_options options, std::string const& also = {},
                                             traffic* spent = nullptr) {
     using namespace diagnose_detail;
+    released_at_end idle(others);
     candidate_server const here(problem, catalogue);
     working_coordinator all(others, {}, diagnose_detail::identity_of(problem, catalogue, also),
                             [&here](worker& self, std::string_view request) {
                                 return here.answer(request, [&self] { return self.wanted(); });
                             });
+    idle.work_has_come();
     options.screening.fit_elsewhere = [&](std::vector<wanted_fit> const& wanted,
                                           std::function<bool()> const& go_on) {
         std::vector<worker_pool::task> tasks;

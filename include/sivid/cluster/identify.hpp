@@ -130,28 +130,27 @@ private:
 /// @throws worker_mismatch       when a worker runs another program, or has another problem
 /// @throws wire_error          for a message that cannot be read
 /// @throws std::runtime_error  for what a worker reports
+/// @throws what `sivid::identify` throws; the others are let go in any case
 [[nodiscard]] inline identification identify(transport& others,
                                              identification_problem const& problem,
                                              identify_options options, std::string const& also = {},
                                              traffic* spent = nullptr) {
-    bool asked = false;
+    released_at_end idle(others);
     auto const mine = identify_detail::identity_of(problem, options, also);
     options.invert_by = [&](data_test& test, box const& prior, inversion_options const& search,
                             std::optional<approximate_fit> const& fit,
                             std::optional<window_contraction> const& windows) {
         if (windows && windows->empty()) return sivid::invert(test, prior, search);
-        asked = true;
         box_server<data_test> boxes(test, prior);
         working_coordinator all(
             others, identify_detail::about(problem, mine, fit, windows), mine,
             [&boxes](worker&, std::string_view request) { return boxes(request); });
+        idle.work_has_come();
         auto found = cluster::invert(all.helpers(), test, prior, search);
         if (spent != nullptr) *spent = all.helpers().traffic();
         return found;
     };
-    auto found = sivid::identify(problem, std::move(options));
-    if (!asked) release(others);
-    return found;
+    return sivid::identify(problem, std::move(options));
 }
 
 /// Works for the one who identifies this problem, until the search is over.

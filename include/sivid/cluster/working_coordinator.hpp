@@ -59,6 +59,23 @@ inline void release(transport& others) {
         others.send(m, to_bytes({frame::kind::end, 0, {}}));
 }
 
+/// Lets them go with the end of its life, whatever ends it, unless work has come meanwhile: then a
+/// `working_coordinator` does.
+class released_at_end {
+public:
+    /// @param others  is referred to
+    explicit released_at_end(transport& others) : others_(&others) {}
+    released_at_end(released_at_end const&) = delete;
+    released_at_end& operator=(released_at_end const&) = delete;
+    ~released_at_end() {
+        if (others_ != nullptr) release(*others_);
+    }
+    void work_has_come() { others_ = nullptr; }
+
+private:
+    transport* others_;
+};
+
 } // namespace sivid::cluster
 
 #endif
