@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/io/identification_reader.hpp>
 
+#include <sivid/paving/identifiability.hpp>
+
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
+
+#include <string>
 
 using namespace sivid;
 
@@ -59,7 +63,10 @@ TEST_CASE("malformed files are refused") {
     spoilt_json("\"consistent\"", "\"surely\"");
     spoilt_json("\"witness\"", "\"whitness\"");
     spoilt_json("\"a\": {\"hull\": [", "\"a\": {\"hull\": [9, ");
-    spoilt_json("\"budget\": {\"run\": 0}", "\"budget\": {\"run\": -1}");
+    for (auto const* count : {"-1", "1e30", "0.5"}) {
+        spoilt_json("\"budget\": {\"run\": 0}",
+                    "\"budget\": {\"run\": " + std::string{count} + "}");
+    }
     auto const spoilt_csv = [&](std::string const& from, std::string const& to) {
         auto copy = good;
         REQUIRE(copy.replace_csv(from, to));
@@ -69,4 +76,20 @@ TEST_CASE("malformed files are refused") {
     spoilt_csv("\ninside,", "\nwithin,");
     spoilt_csv("\ninside,", "\ninside,x");
     spoilt_csv("\ninside,", "\ninside,9");
+}
+
+TEST_CASE("weights of motions are whole numbers, not rounded to some") {
+    auto const problem = io_support::two_rates_problem();
+    auto const told = identifiability_of(problem, problem.prior);
+    REQUIRE_FALSE(told.free.empty());
+    io_support::stored_result file(problem);
+    file.set_json(identification_json(problem, io_support::two_rates_result(problem),
+                                      {.dataset = "small", .identifiability = &told}));
+    REQUIRE(file.read().identifiability);
+    auto other = file;
+    REQUIRE(other.replace_json("\"weights\": {\"a\": 1,", "\"weights\": {\"a\": 1.3,"));
+    CHECK_THROWS_AS(other.read(), input_error);
+    other = file;
+    REQUIRE(other.replace_json("\"least\": ", "\"least\": 1e3"));
+    CHECK_THROWS_AS(other.read(), input_error);
 }

@@ -182,3 +182,16 @@ TEST_CASE("doubles become decimals") {
         CHECK(*sivid::nearest(exact_decimal::shortest(value)) == value);
     }
 }
+
+TEST_CASE("a whole number is told from one that is none, or is too large") {
+    CHECK(dec("0").whole() == 0u);
+    CHECK(dec("-0").whole() == 0u);
+    CHECK(dec("12e2").whole() == 1200u);
+    CHECK(dec("7.0").whole() == 7u);
+    CHECK(dec("1e18").whole() == 1'000'000'000'000'000'000u);
+    CHECK(dec("18446744073709551615").whole() == 18446744073709551615u);
+    for (auto const* none : {"-1", "1.9", "1e-3", "18446744073709551616", "1e20", "1e30"}) {
+        CAPTURE(none);
+        CHECK_FALSE(dec(none).whole());
+    }
+}

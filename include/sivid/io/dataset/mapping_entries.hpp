@@ -55,12 +55,12 @@ namespace sivid::mapping_entries {
 [[nodiscard]] inline std::size_t whole(json_value const& entry, std::size_t least,
                                        std::size_t most) {
     auto const x = entry.number();
-    auto const limit = [](std::size_t n) { return *exact_decimal::parse(std::to_string(n)); };
-    if (x < limit(least) || limit(most) < x || !(limit(x.floor()) == x))
+    auto const n = x.whole();
+    if (!n || *n < least || most < *n)
         entry.fail(text_of(x.text(), " is no whole number from ", std::to_string(least), " to ",
                            std::to_string(most)),
                    "correct it");
-    return x.floor();
+    return *n;
 }
 
 /// A decimal above 0.

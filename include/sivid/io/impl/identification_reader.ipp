@@ -42,9 +42,18 @@ inline interval outward(json_value const& entry) {
 }
 
 inline std::size_t count(json_value const& entry) {
-    auto const value = entry.number();
-    if (value.is_negative()) entry.fail("a negative count", "correct it");
-    return value.floor();
+    auto const x = entry.number();
+    auto const value = x.whole();
+    if (!value) entry.fail(x.text() + " is no count", "write a whole number from 0 to 1e18");
+    return *value;
+}
+/// A whole number of either sign.
+inline long whole(json_value const& entry) {
+    auto const x = entry.number();
+    auto const size = (x.is_negative() ? -x : x).whole();
+    if (!size || *size > 1'000'000)
+        entry.fail(x.text() + " is no weight of a motion", "write a whole number up to 1e6");
+    return x.is_negative() ? -static_cast<long>(*size) : static_cast<long>(*size);
 }
 
 template <class Word>
@@ -74,7 +83,7 @@ inline stored_identification::identifiability_claims read_claims(json_value cons
         std::map<std::string, long> weights;
         auto const& of = m.at("weights");
         for (std::size_t c = 0; c < of.members().size(); ++c) {
-            weights[of.name_of(c)] = std::lround(*nearest(of.members()[c].number()));
+            weights[of.name_of(c)] = whole(of.members()[c]);
         }
         result.proved.push_back(motion_claim(m.at("kind").string(), weights));
     }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,16 @@ public:
 
     /// floor(x) for 0 <= x < 1e18.
     [[nodiscard]] std::size_t floor() const;
+
+    /// The number where it is a whole one from 0 to what a count may be; else nothing.
+    [[nodiscard]] std::optional<std::size_t> whole() const {
+        if (is_zero()) return 0;
+        if (negative_ || exponent_ < 0 || !is_below_power_of_ten(20)) return std::nullopt;
+        auto const text = digits_at(0);
+        std::size_t value = 0;
+        auto const read = std::from_chars(text.data(), text.data() + text.size(), value);
+        return read.ec == std::errc{} ? std::optional{value} : std::nullopt;
+    }
 
     [[nodiscard]] friend bool operator==(exact_decimal const& a, exact_decimal const& b) = default;
     [[nodiscard]] friend bool operator<(exact_decimal const& a, exact_decimal const& b) {

@@ -31,3 +31,12 @@ TEST_CASE("what is no product of the names is refused") {
         CHECK_FALSE(product_formula::parse(text, names));
     }
 }
+
+TEST_CASE("powers that no model has are refused, also as sums") {
+    std::vector<std::string> const names{"a", "b"};
+    CHECK(product_formula::parse("a^1000/b^2", names)->degree() == 1002);
+    for (auto const* text : {"a^1001", "1/b^1001", "a^600*a^600", "a^2147483647*a^2147483647"}) {
+        INFO(text);
+        CHECK_FALSE(product_formula::parse(text, names));
+    }
+}

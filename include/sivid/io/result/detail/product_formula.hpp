@@ -19,7 +19,8 @@ namespace sivid {
 /// A product of powers as result files write it: "L*Sg", "a^2/b", "1/(a*b^3)".
 class product_formula {
 public:
-    /// @returns nothing when malformed or when a factor is none of the names
+    /// @returns nothing when malformed, when a factor is none of the names, or for powers beyond
+    /// 1000
     [[nodiscard]] static std::optional<product_formula>
     parse(std::string_view text, std::vector<std::string> const& names) {
         product_formula result;
@@ -36,6 +37,13 @@ public:
 
     /// One per name.
     [[nodiscard]] std::vector<int> const& exponents() const { return exponents_; }
+
+    /// The sum of all powers, those of divisors counted as they are.
+    [[nodiscard]] int degree() const {
+        int sum = 0;
+        for (int const e : exponents_) sum += std::abs(e);
+        return sum;
+    }
 
     /// The same without one of the factors.
     [[nodiscard]] product_formula without(std::size_t j) const {
@@ -72,17 +80,22 @@ private:
                 auto const digits = factor.substr(hat + 1);
                 auto const [stop, fault] =
                     std::from_chars(digits.data(), digits.data() + digits.size(), power);
-                if (fault != std::errc{} || stop != digits.data() + digits.size() || power < 1)
+                if (fault != std::errc{} || stop != digits.data() + digits.size() || power < 1 ||
+                    power > most_power)
                     return false;
                 factor = factor.substr(0, hat);
             }
             auto const found = std::find(names.begin(), names.end(), factor);
             if (found == names.end()) return false;
-            exponents_[static_cast<std::size_t>(found - names.begin())] += sign * power;
+            auto& sum = exponents_[static_cast<std::size_t>(found - names.begin())];
+            sum += sign * power;
+            if (std::abs(sum) > most_power) return false;
             if (end == text.size()) return true;
             text.remove_prefix(end + 1);
         }
     }
+
+    static constexpr int most_power = 1000;
 
     std::vector<int> exponents_;
 };
