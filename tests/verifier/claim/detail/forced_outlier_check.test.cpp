@@ -4,6 +4,9 @@
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
+#include <vector>
+
 using namespace sivid;
 using outcome = check_finding::outcome;
 
@@ -32,4 +35,33 @@ TEST_CASE("forced outliers are proved over all boxes, or not believed") {
         stored.forced = {bad};
         CHECK(check(stored) == outcome::refuted);
     }
+}
+
+TEST_CASE("of two readings of one instant the one that is violated is the outlier") {
+    auto problem = plain_problem::make(1, 1);
+    auto& readings = problem.experiments[0].measurements;
+    readings.push_back({1.0, 0, interval(5.0, 6.0)}); // beside one that all meet
+    stored_identification stored;
+    stored.rows = {{box{interval(0.48, 0.52)}, box_verdict::undecided}};
+    auto const found = [&](std::vector<std::vector<bool>> const& hits = {}) {
+        return check_forced<interval>(problem, stored, hits, {}, 10).found;
+    };
+    stored.forced = {{"run", 1.0, "x"}};
+    CHECK(found() == outcome::verified);
+    CHECK(found({{false, true, false}}) == outcome::verified);
+    CHECK(found({{false, true, true}}) == outcome::refuted);
+    stored.forced = {{"run", 1.0, "x"}, {"run", 1.0, "x"}}; // both are said to be
+    CHECK(found() == outcome::undecided);
+    CHECK(found({{false, true, false}}) == outcome::refuted);
+    readings[1].bound = interval(4.0, 4.5);
+    CHECK(found() == outcome::verified);
+    stored.forced.push_back(stored.forced[0]); // three of two
+    CHECK(found() == outcome::refuted);
+    // One parameter violates the one, another the other: neither is forced.
+    stored.rows = {{box{interval(0.4, 0.6)}, box_verdict::undecided}};
+    double const middle = 2 * std::exp(-0.5);
+    readings[1].bound = interval(middle + 0.001, 3.0);
+    readings.back().bound = interval(0.0, middle - 0.001);
+    stored.forced = {{"run", 1.0, "x"}};
+    CHECK(found() == outcome::undecided);
 }

@@ -17,15 +17,29 @@ namespace sivid {
 
 namespace io_detail {
 
-inline std::optional<std::size_t> index_of_sample(record const& samples,
-                                                  stored_identification::outlier const& f,
-                                                  model_description const& about) {
+/// Readings of one instant and channel. A result says how many of them are forced outliers, not
+/// which.
+struct forced_readings {
+    std::size_t all = 0, forced = 0;
+    std::vector<std::size_t> missed; ///< those that the witness does not certainly meet
+};
+
+/// @param hits  what the witness certainly meets; may be empty
+inline forced_readings readings_of(stored_identification const& stored,
+                                   stored_identification::outlier const& f, record const& samples,
+                                   model_description const& about, std::vector<bool> const& hits) {
+    forced_readings result;
     for (std::size_t k = 0; k < samples.size(); ++k) {
-        if (samples[k].time == f.time && about.channels[samples[k].channel].name == f.channel) {
-            return k;
-        }
+        if (samples[k].time != f.time || about.channels[samples[k].channel].name != f.channel)
+            continue;
+        ++result.all;
+        if (k >= hits.size() || !hits[k]) result.missed.push_back(k);
     }
-    return std::nullopt;
+    for (auto const& g : stored.forced) {
+        bool const same = g.scenario == f.scenario && g.time == f.time && g.channel == f.channel;
+        result.forced += same ? 1 : 0;
+    }
+    return result;
 }
 
 template <class I>
@@ -52,9 +66,37 @@ inline std::optional<std::size_t> widest_side(box const& x, box const& prior) {
     return best;
 }
 
+/// Whether every parameter of every row violates these measurements of an experiment: proved over
+/// parts of the rows' hull, as long as `keep_going` says.
+template <class I, class KeepGoing>
+bool violated_everywhere(identification_problem const& problem, stored_identification const& stored,
+                         experiment const& own, plain_run<I>& run,
+                         std::vector<std::size_t> const& which, KeepGoing const& keep_going) {
+    if (which.empty() || stored.rows.empty()) return true;
+    auto all = stored.rows[0].set;
+    for (auto const& row : stored.rows) all = hull(all, row.set);
+    std::vector<box> waiting{intersect(all, problem.prior)};
+    while (!waiting.empty()) {
+        auto const region = std::move(waiting.back());
+        waiting.pop_back();
+        bool const needed =
+            std::any_of(stored.rows.begin(), stored.rows.end(),
+                        [&](auto const& row) { return !is_empty(intersect(row.set, region)); });
+        if (!needed || all_violated(run(own.initial, region), run.samples(), which)) continue;
+        auto const side = widest_side(region, problem.prior);
+        if (!side || !keep_going()) return false;
+        auto [low, high] = bisect(region, *side, mid(region[*side]));
+        waiting.push_back(std::move(low));
+        waiting.push_back(std::move(high));
+    }
+    return true;
+}
+
 } // namespace io_detail
 
 /// Every parameter of every row violates the measurements that are said to be forced outliers.
+///   Of several readings of one channel at one instant so many must be violated, each by all
+///   parameters, as are stated there.
 /// @param hits  by experiment and sample: what a verified witness certainly meets; may be empty
 /// @cost  runs over parts of the rows' hull until each shows the violations, or the time is up
 template <class I>
@@ -65,47 +107,43 @@ template <class I>
     using outcome = check_finding::outcome;
     std::string const what = "proved outliers";
     auto const begin = std::chrono::steady_clock::now();
+    auto const in_time = [&] {
+        std::chrono::duration<double> const spent = std::chrono::steady_clock::now() - begin;
+        return spent.count() <= seconds;
+    };
     bool any = false;
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& own = problem.experiments[e];
         plain_run<I> run(problem.model, problem.choice, own, how);
-        std::vector<std::size_t> which;
+        std::vector<std::size_t> which;                  // shown together
+        std::vector<io_detail::forced_readings> unclear; // one by one
         for (auto const& f : stored.forced) {
             if (f.scenario != own.name) continue;
-            auto const k = io_detail::index_of_sample(run.samples(), f, problem.model.about);
-            if (!k) return {what, outcome::refuted, "no such measurement in " + own.name};
-            if (e < hits.size() && *k < hits[e].size() && hits[e][*k]) {
+            any = true;
+            auto const r = io_detail::readings_of(stored, f, run.samples(), problem.model.about,
+                                                  e < hits.size() ? hits[e] : std::vector<bool>{});
+            if (r.all < r.forced) {
+                return {what, outcome::refuted, "no such measurement in " + own.name};
+            }
+            if (r.missed.size() < r.forced) {
                 return {what, outcome::refuted, "the witness meets one in " + own.name};
             }
-            which.push_back(*k);
-        }
-        if (which.empty()) continue;
-        any = true;
-        std::vector<box> waiting;
-        if (!stored.rows.empty()) {
-            auto all = stored.rows[0].set;
-            for (auto const& row : stored.rows) all = hull(all, row.set);
-            waiting.push_back(intersect(all, problem.prior));
-        }
-        while (!waiting.empty()) {
-            auto const region = std::move(waiting.back());
-            waiting.pop_back();
-            bool const needed =
-                std::any_of(stored.rows.begin(), stored.rows.end(),
-                            [&](auto const& row) { return !is_empty(intersect(row.set, region)); });
-            if (!needed ||
-                io_detail::all_violated(run(own.initial, region), run.samples(), which)) {
-                continue;
+            if (r.missed.size() > r.forced) {
+                unclear.push_back(r);
+            } else {
+                which.insert(which.end(), r.missed.begin(), r.missed.end());
             }
-            auto const side = io_detail::widest_side(region, problem.prior);
-            std::chrono::duration<double> const spent = std::chrono::steady_clock::now() - begin;
-            if (!side || spent.count() > seconds) {
-                return {what, outcome::undecided, "no proof within the budget"};
-            }
-            auto [low, high] = bisect(region, *side, mid(region[*side]));
-            waiting.push_back(std::move(low));
-            waiting.push_back(std::move(high));
         }
+        auto const violated = [&](std::vector<std::size_t> const& these) {
+            return io_detail::violated_everywhere(problem, stored, own, run, these, in_time);
+        };
+        bool proved = violated(which);
+        for (std::size_t k = 0; k < unclear.size() && proved; ++k) {
+            std::size_t found = 0;
+            for (auto const place : unclear[k].missed) found += violated({place}) ? 1 : 0;
+            proved = found >= unclear[k].forced;
+        }
+        if (!proved) return {what, outcome::undecided, "no proof within the budget"};
     }
     bool const strangers =
         std::any_of(stored.forced.begin(), stored.forced.end(), [&](auto const& f) {
