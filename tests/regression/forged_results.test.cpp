@@ -223,3 +223,17 @@ TEST_CASE("a checkpoint that lost boxes is refused although its digest is right"
     bad.search.paved.push_back(bad.search.paved.back());
     CHECK_FALSE(accepted(bad));
 }
+
+TEST_CASE("what contradicts the data is not consistent by a volume that nothing shows") {
+    auto const problem = io_support::impossible_problem();
+    auto stored = io_support::stored_result(problem).read();
+    REQUIRE(stored.products);
+    REQUIRE(stored.verdict == verdict::inconsistent);
+    CHECK(checked(problem, stored, true) == outcome::verified);
+    stored.verdict = verdict::consistent;
+    stored.grounds = to_string(verdict_grounds::inside_boxes);
+    for (double const much : {1e-310, 1e-301, 1e-12}) {
+        stored.inner = interval(much);
+        CHECK(checked(problem, stored, true) == outcome::refuted);
+    }
+}

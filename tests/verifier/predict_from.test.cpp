@@ -377,6 +377,9 @@ TEST_CASE("boxes that were cut to what suits are refused") {
     stored_result const stored(t.problem);
     auto cut = stored.read();
     CHECK_NOTHROW(t.predicted(cut));
+    auto far = cut;
+    far.witness->parameters["a"] = 1.9;
+    CHECK_THROWS_WITH(t.predicted(far), ContainsSubstring("the witness lies in no box"));
     cut.rows.erase(cut.rows.begin());
     cut.stated_rows.clear();
     CHECK_THROWS_WITH(t.predicted(cut), ContainsSubstring("contradicts itself"));

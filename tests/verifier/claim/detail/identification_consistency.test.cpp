@@ -4,6 +4,8 @@
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
+
 #ifdef SIVID_HAS_MPFI
 #include <sivid/number/mp_interval.hpp>
 #endif
@@ -47,10 +49,23 @@ TEST_CASE("a result agrees with itself, and each tampering is seen by the check 
         bad.parameters[0].range = interval(0.4, 2.0);
         CHECK(check_hull(problem, bad).found == outcome::refuted);
     }
-    SECTION("a box moved out of the prior") {
+    SECTION("a bound at one end only, which excludes what the boxes leave") {
         auto bad = good;
-        bad.rows[0].set[0] = interval(2.5, 2.6);
+        bad.parameters[0].range = interval_traits<interval>::bounds(1.9, HUGE_VAL);
         CHECK(check_hull(problem, bad).found == outcome::refuted);
+        bad.combinations[0].range = bad.parameters[0].range;
+        CHECK(check_combinations<exact>(problem, bad).found == outcome::refuted);
+    }
+    SECTION("a box moved out of the prior, or next to it") {
+        auto bad = good;
+        for (double const off : {0.5, 0x1p-51}) {
+            auto const beside = interval(2 + off, 2 + 1.5 * off);
+            bad.rows = {{box{beside}, box_verdict::inside}};
+            bad.parameters[0].range = beside;
+            CHECK(check_hull(problem, bad).found == outcome::refuted);
+            bad.stated_rows.clear();
+            CHECK(check_rows(problem, bad).found == outcome::refuted);
+        }
     }
     SECTION("a box removed") {
         auto bad = good;
@@ -59,6 +74,17 @@ TEST_CASE("a result agrees with itself, and each tampering is seen by the check 
         CHECK(check_volumes(problem, bad).found == outcome::refuted);
         bad.stated_rows.clear();
         CHECK(check_volumes(problem, bad).found == outcome::refuted);
+    }
+    SECTION("something inside where no box is") {
+        auto bad = good;
+        for (auto& row : bad.rows) row.verdict = box_verdict::pending;
+        bad.stated_rows.clear();
+        for (double const much : {0.1, 1e-10, 1e-14, 1e-300}) {
+            bad.inner = interval(much);
+            CHECK(check_volumes(problem, bad).found == outcome::refuted);
+        }
+        bad.inner = interval(0.0);
+        CHECK(check_volumes(problem, bad).found == outcome::verified);
     }
     SECTION("a box relabelled") {
         auto bad = good;
@@ -78,6 +104,14 @@ TEST_CASE("a result agrees with itself, and each tampering is seen by the check 
         CHECK(check_verdict(bad).found == outcome::refuted);
         bad.verdict = verdict::undecided;
         CHECK(check_verdict(bad).found == outcome::refuted);
+    }
+    SECTION("a problem that is not stated") {
+        auto bad = good;
+        CHECK(check_problem(problem, bad).found == outcome::verified);
+        bad.problem.clear();
+        CHECK(check_problem(problem, bad).found == outcome::undecided);
+        bad.problem = "another";
+        CHECK(check_problem(problem, bad).found == outcome::refuted);
     }
     SECTION("a combination narrowed or of nothing") {
         auto bad = good;
@@ -118,4 +152,16 @@ TEST_CASE("an empty result is consistent with the verdict inconsistent only") {
     stored.verdict = verdict::undecided;
     CHECK(check_verdict(stored).found == outcome::refuted);
     CHECK(to_string(outcome::refuted) == "REFUTED");
+}
+
+TEST_CASE("a combination without a bound is stated as one") {
+    auto const problem = io_support::two_rates_problem();
+    stored_identification stored;
+    stored.rows = {{box{interval(1.0, 2.0), interval(-1.0, 1.0)}, box_verdict::undecided}};
+    stored.combinations = {{"a/b", interval_traits<interval>::entire()}};
+    CHECK(check_combinations<exact>(problem, stored).found == outcome::verified);
+    for (auto const& bad : {interval(3.0, 4.0), interval_traits<interval>::bounds(3, HUGE_VAL)}) {
+        stored.combinations[0].range = bad;
+        CHECK(check_combinations<exact>(problem, stored).found == outcome::refuted);
+    }
 }

@@ -136,3 +136,23 @@ TEST_CASE(
     auto const altered = outside(0.5, least + 3 * rim);
     CHECK(altered.found != outcome::verified);
 }
+
+TEST_CASE("what was not examined is not verified, and an inside row beside the prior is refuted") {
+    auto const problem = io_support::one_rate_problem();
+    auto stored = io_support::stored_result(problem).read();
+    identification_check_options options;
+    options.sample = 0;
+    options.seconds = 60;
+    paving_check<interval> check(problem, {"a"}, stored.rows, {}, options);
+    CHECK(check.covering("cover").found == outcome::verified);
+    CHECK(check.inside("inside").found == outcome::undecided);
+    CHECK(check.outside("outside").found == outcome::undecided);
+    CHECK_THAT(check.outside("outside").detail, ContainsSubstring("none of"));
+    stored.rows.push_back({box{interval(2 + 0x1p-51, 2 + 0x1p-50)}, box_verdict::inside});
+    for (bool const all : {false, true}) {
+        options.all = all;
+        options.sample = 1;
+        paving_check<interval> other(problem, {"a"}, stored.rows, {}, options);
+        CHECK(other.inside("inside").found == outcome::refuted);
+    }
+}

@@ -4,6 +4,8 @@
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
+
 using namespace sivid;
 using outcome = check_finding::outcome;
 
@@ -70,6 +72,14 @@ TEST_CASE("hull, combinations and volumes follow from the products, and each alt
         bad.combinations.clear();
         CHECK(check_combinations_of_products(bad).found == outcome::refuted);
     }
+    SECTION("a bound at one end only") {
+        bad.parameters[0].range = interval_traits<interval>::bounds(1.9, HUGE_VAL);
+        CHECK(hulls(bad) == outcome::refuted);
+        bad.combinations[0].range = interval_traits<interval>::bounds(5, HUGE_VAL);
+        CHECK(check_combinations_of_products(bad).found == outcome::refuted);
+        bad.inner = interval_traits<interval>::bounds(good.inner.lower(), HUGE_VAL);
+        CHECK(volumes(bad) == outcome::refuted);
+    }
     SECTION("volumes") {
         for (double const factor : {0.999, 1.001}) {
             bad = good;
@@ -79,5 +89,33 @@ TEST_CASE("hull, combinations and volumes follow from the products, and each alt
             bad.outer = interval(good.outer.lower() * factor, good.outer.upper() * factor);
             CHECK(volumes(bad) == outcome::refuted);
         }
+    }
+}
+
+TEST_CASE(
+    "a volume decides nothing where no product is inside, nor where none is known to be met") {
+    auto const problem = io_support::two_rates_problem();
+    auto stored = io_support::stored_result(problem).read();
+    auto const rebuilt = rebuild_products<interval>(problem, stored.products->sides);
+    auto const verdicts = [&] {
+        return check_verdict_of_products<interval>(stored, rebuilt, problem.prior).found;
+    };
+    CHECK(verdicts() == outcome::verified);
+    stored.witness.reset();
+    stored.grounds = to_string(verdict_grounds::inside_boxes);
+    for (auto& row : stored.rows) row.verdict = box_verdict::pending;
+    CHECK(verdicts() == outcome::verified); // by the products that are inside
+    auto& rows = stored.products->rows;
+    auto const proved = rows;
+    for (auto& row : rows) row.set[0] = interval(2.0); // the largest: of one point of the prior
+    CHECK(verdicts() == outcome::undecided);
+    for (auto const& nothing_inside : {std::vector<paved_box>{}, proved}) {
+        rows = nothing_inside;
+        for (auto& row : rows) row.verdict = box_verdict::undecided;
+        stored.inner = interval(1e-301);
+        CHECK(verdicts() == outcome::refuted);
+        CHECK(check_verdict(stored).found == outcome::refuted);
+        CHECK(check_volumes_of_products<interval>(problem, stored, rebuilt).found ==
+              outcome::refuted);
     }
 }

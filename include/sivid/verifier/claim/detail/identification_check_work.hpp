@@ -74,7 +74,11 @@ public:
         add([&] {
             return check_stop(*stored_, by_products ? rebuilt.problem.prior : problem_->prior);
         });
-        add([&] { return check_verdict(*stored_); });
+        add([&] {
+            return by_products
+                       ? check_verdict_of_products<Fast>(*stored_, rebuilt, problem_->prior, limit_)
+                       : check_verdict(*stored_);
+        });
         add([&] {
             return by_products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt)
                                : check_hull(*problem_, *stored_);

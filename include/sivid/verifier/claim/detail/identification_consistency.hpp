@@ -8,6 +8,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/space/box_cover.hpp>
 #include <sivid/verifier/claim/detail/check_finding.hpp>
+#include <sivid/verifier/claim/detail/stated_range.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,17 +22,16 @@ namespace sivid {
 
 namespace io_detail {
 
-/// Bounds that differ by what rounding to decimals may cost.
-inline bool nearly(double a, double b, double scale) {
-    return a == b || std::abs(a - b) <= 4e-15 * scale;
-}
-inline bool nearly(interval const& a, interval const& b) {
-    if (is_empty(a) || is_empty(b)) return is_empty(a) && is_empty(b);
-    double const scale = std::max(mag(a), mag(b));
-    return nearly(a.lower(), b.lower(), scale) && nearly(a.upper(), b.upper(), scale);
-}
 inline double apart(interval const& a, interval const& b) {
     return std::max({0.0, a.lower() - b.upper(), b.lower() - a.upper()});
+}
+inline bool any_inside(std::vector<paved_box> const& rows) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](auto const& row) { return row.verdict == box_verdict::inside; });
+}
+inline bool any_leaves(std::vector<paved_box> const& rows, box const& prior) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [&prior](auto const& row) { return leaves(row.set, prior); });
 }
 /// Whether there are other numbers of rows than stated.
 inline std::string miscounted(stored_identification const& stored) {
@@ -84,41 +84,33 @@ inline check_finding late(std::string what) {
     std::string fault;
     for (std::size_t j = 0; j < stored.parameters.size(); ++j) {
         auto range = interval_traits<interval>::empty();
-        auto const& prior = problem.prior[j];
-        double const slack = 2e-15 * mag(prior);
-        for (auto const& row : stored.rows) {
-            range = hull(range, row.set[j]);
-            if (row.set[j].lower() < prior.lower() - slack ||
-                row.set[j].upper() > prior.upper() + slack) {
-                fault = "a box leaves the prior of " + stored.parameters[j].name;
-            }
-        }
-        auto const& own = stored.parameters[j].range;
-        if (!io_detail::nearly(range, own)) {
+        for (auto const& row : stored.rows) range = hull(range, row.set[j]);
+        if (!io_detail::states(stored.parameters[j].range, range)) {
             fault = "the hull of " + stored.parameters[j].name + " is not that of the boxes";
         }
     }
+    if (io_detail::any_leaves(stored.rows, problem.prior)) fault = "a box leaves the prior";
     return io_detail::agreement("hull", fault, "that of all boxes, within the prior");
 }
 
-/// The stated numbers and volumes are those of the rows.
+/// The stated numbers are those of the rows, and so are the volumes, as far as decimals tell.
 [[nodiscard]] inline check_finding check_volumes(identification_problem const& problem,
                                                  stored_identification const& stored) {
     using traits = interval_traits<interval>;
     interval inner{0.0}, outer{0.0};
     for (auto const& row : stored.rows) {
-        auto const v = relative_volume(row.set, problem.prior);
+        auto const v = io_detail::share_of(row.set, problem.prior);
         outer = traits::add(outer, v);
         if (row.verdict == box_verdict::inside) inner = traits::add(inner, v);
     }
-    double const allowed = 1e-9 * outer.upper() + 1e-14;
     auto fault = io_detail::miscounted(stored);
-    if (is_empty(stored.inner) || io_detail::apart(inner, stored.inner) > allowed) {
+    if (is_empty(intersect(inner, stored.inner))) {
         fault = "the inner volume is not that of the inside boxes";
     }
-    if (is_empty(stored.outer) || io_detail::apart(outer, stored.outer) > allowed) {
+    if (is_empty(intersect(outer, stored.outer))) {
         fault = "the outer volume is not that of the boxes";
     }
+    double const allowed = 1e-9 * outer.upper() + 1e-14; // to say less excludes nothing
     if (width(stored.inner) > width(inner) + allowed ||
         width(stored.outer) > width(outer) + allowed) {
         fault = "the volumes are stated less sharply than the boxes give them";
@@ -131,24 +123,14 @@ inline check_finding late(std::string what) {
 [[nodiscard]] inline check_finding check_rows(identification_problem const& problem,
                                               stored_identification const& stored) {
     auto fault = io_detail::miscounted(stored);
-    for (auto const& row : stored.rows) {
-        for (std::size_t j = 0; j < row.set.size(); ++j) {
-            auto const& prior = problem.prior[j];
-            double const slack = 2e-15 * mag(prior);
-            if (row.set[j].lower() < prior.lower() - slack ||
-                row.set[j].upper() > prior.upper() + slack) {
-                fault = "a box leaves the prior of " + stored.parameters[j].name;
-            }
-        }
-    }
+    if (io_detail::any_leaves(stored.rows, problem.prior)) fault = "a box leaves the prior";
     return io_detail::agreement("boxes", fault, "as many as stated, within the prior");
 }
 
-/// The verdict follows from witness and boxes.
+/// The verdict follows from witness and boxes; of products, from a volume that is said to be
+/// proved inside (`check_verdict_of_products`).
 [[nodiscard]] inline check_finding check_verdict(stored_identification const& stored) {
-    bool const inside = std::any_of(stored.rows.begin(), stored.rows.end(), [](auto const& row) {
-        return row.verdict == box_verdict::inside;
-    });
+    bool const inside = io_detail::any_inside(stored.rows);
     bool const volume = stored.products && !is_empty(stored.inner) && stored.inner.lower() > 0;
     auto const follows = stored.witness || inside || volume ? verdict::consistent
                          : stored.rows.empty()              ? verdict::inconsistent
@@ -156,6 +138,9 @@ inline check_finding late(std::string what) {
     auto const words = std::string{to_string(stored.verdict)};
     std::string fault;
     if (follows != stored.verdict) fault = "'" + words + "' does not follow from the rest";
+    if (volume && !io_detail::any_inside(stored.products->rows)) {
+        fault = "a volume is said to be proved inside, but no product is";
+    }
     auto const grounds =
         grounds_for(stored.witness.has_value(), inside || volume, !stored.rows.empty());
     if (fault.empty() && !stored.grounds.empty() && stored.grounds != to_string(grounds)) {
@@ -210,10 +195,12 @@ inline check_finding late(std::string what) {
 /// budgets of outliers. Results of earlier versions do not say.
 [[nodiscard]] inline check_finding check_problem(identification_problem const& problem,
                                                  stored_identification const& stored) {
-    bool const other = !stored.problem.empty() && stored.problem != problem_digest(problem);
+    if (stored.problem.empty()) {
+        return {"problem", check_finding::outcome::undecided, "the result does not say which"};
+    }
+    bool const other = stored.problem != problem_digest(problem);
     return io_detail::agreement("problem", other ? "another one was identified" : "",
-                                stored.problem.empty() ? "the result does not say which"
-                                                       : "the one that was identified, by SHA-256");
+                                "the one that was identified, by SHA-256");
 }
 
 /// Whether the reason to stop follows from what was left and from what the search was to end at.
@@ -298,13 +285,9 @@ template <class I>
         }
         auto const range = low <= high ? interval_traits<interval>::bounds(low, high)
                                        : interval_traits<interval>::empty();
-        double const slack = 1e-14 * mag(range);
-        bool const same = is_empty(range)
-                              ? is_empty(c.range)
-                              : !is_empty(c.range) &&
-                                    std::abs(c.range.lower() - range.lower()) <= slack &&
-                                    std::abs(c.range.upper() - range.upper()) <= slack;
-        if (!same) fault = "the range of " + c.name + " is not that over the boxes";
+        if (!io_detail::states(c.range, range, 4 + 4 * formula->degree())) {
+            fault = "the range of " + c.name + " is not that over the boxes";
+        }
     }
     return io_detail::agreement("combinations", fault,
                                 std::to_string(stored.combinations.size()) + " evaluated anew");

@@ -65,6 +65,11 @@ public:
         }
         auto const total = rows.size();
         if (total == 0) return {std::move(what), outcome::nothing, ""};
+        if (std::any_of(rows.begin(), rows.end(), [&](std::size_t k) {
+                return is_empty(intersect((*rows_)[k].set, problem_->prior));
+            })) {
+            return {std::move(what), outcome::refuted, "one lies beside the prior"};
+        }
         std::mt19937_64 random(options_->seed);
         if (auto const at = unexplained_point(rows, random)) return contradicted(what, *at);
         for (std::size_t k = 0; k < rows.size() && (options_->all || k < options_->sample); ++k) {
@@ -275,7 +280,10 @@ private:
     /// @param runs  that were spent on the claims before
     [[nodiscard]] check_finding prove(std::string what, std::vector<box_claim> claims,
                                       std::size_t total, std::size_t runs = 0) {
-        if (claims.empty()) return {std::move(what), outcome::nothing, ""};
+        if (claims.empty()) {
+            return {std::move(what), outcome::undecided,
+                    "none of " + std::to_string(total) + " examined"};
+        }
         auto const how = effort();
         claim_checker<Fast> checker(*problem_, starts_, how);
         checker(claims);

@@ -25,12 +25,6 @@ inline box hull_of(std::vector<paved_box> const& rows) {
     for (auto const& row : rows) all = hull(all, row.set);
     return all;
 }
-/// Equal but for the rounding of a few operations and of their decimals.
-inline bool agrees(interval const& a, interval const& b) {
-    if (is_empty(a) || is_empty(b)) return is_empty(a) && is_empty(b);
-    double const room = 1e-14 * std::max(mag(a), mag(b));
-    return std::abs(a.lower() - b.lower()) <= room && std::abs(a.upper() - b.upper()) <= room;
-}
 
 } // namespace io_detail
 
@@ -42,16 +36,9 @@ check_products(stored_products const& rebuilt, stored_identification::product_bo
     std::string const what = "products";
     if (!rebuilt.malformed.empty()) return {what, outcome::refuted, rebuilt.malformed};
     std::map<std::string, std::size_t> counted;
-    for (auto const& row : stored.rows) {
-        ++counted[std::string{to_string(row.verdict)}];
-        for (std::size_t k = 0; k < row.set.size(); ++k) {
-            auto const& prior = rebuilt.problem.prior[k];
-            double const room = 4e-15 * mag(prior);
-            if (row.set[k].lower() < prior.lower() - room ||
-                row.set[k].upper() > prior.upper() + room) {
-                return {what, outcome::refuted, "a box leaves the range of " + stored.sides[k]};
-            }
-        }
+    for (auto const& row : stored.rows) ++counted[std::string{to_string(row.verdict)}];
+    if (io_detail::any_leaves(stored.rows, rebuilt.problem.prior)) {
+        return {what, outcome::refuted, "a box leaves the range of the products"};
     }
     for (auto const* const kind : {"inside", "undecided", "pending"}) {
         auto const stated = stored.stated_rows.find(kind);
@@ -76,6 +63,7 @@ template <class I>
     std::string fault;
     if (rows.empty() && !stored.rows.empty()) fault = "boxes without products";
     std::vector<interval> range(n, interval_traits<interval>::empty());
+    int roundings = 8;
     if (fault.empty() && !stored.rows.empty()) {
         auto const products = io_detail::hull_of(rows), boxes = io_detail::hull_of(stored.rows);
         basic_box<I> p(n);
@@ -84,6 +72,7 @@ template <class I>
         }
         for (std::size_t k = 0; k < rebuilt.sides.size(); ++k) {
             auto const& e = rebuilt.sides[k].exponents();
+            roundings += 4 * rebuilt.sides[k].degree();
             for (std::size_t j = 0; j < n; ++j) {
                 if (e[j] != 1) continue;
                 auto const others = rebuilt.sides[k].without(j).over(p);
@@ -100,7 +89,7 @@ template <class I>
         }
     }
     for (std::size_t j = 0; j < n && fault.empty(); ++j) {
-        if (!io_detail::agrees(range[j], stored.parameters[j].range)) {
+        if (!io_detail::states(stored.parameters[j].range, range[j], roundings)) {
             fault = "the hull of " + stored.parameters[j].name +
                     " is not that of the boxes and products";
         }
@@ -127,12 +116,34 @@ check_combinations_of_products(stored_identification const& stored) {
         for (auto const& row : own.rows) {
             if (k < own.sides.size()) range = hull(range, row.set[k]);
         }
-        if (!io_detail::agrees(range, c.range)) {
+        if (!io_detail::states(c.range, range)) {
             fault = "the range of " + c.name + " is not that of the products";
         }
     }
     return io_detail::agreement("combinations", fault,
                                 std::to_string(products) + " read from the products");
+}
+
+/// The verdict follows, and a volume that it rests on alone is that of products that are inside.
+/// @param prior  of the parameters
+template <class I>
+[[nodiscard]] check_finding
+check_verdict_of_products(stored_identification const& stored, stored_products const& rebuilt,
+                          box const& prior, std::function<bool()> const& keep_going = {}) {
+    auto found = check_verdict(stored);
+    if (found.found != check_finding::outcome::verified || stored.verdict != verdict::consistent ||
+        stored.witness || io_detail::any_inside(stored.rows)) {
+        return found;
+    }
+    product_volume<I> const share(rebuilt, prior);
+    for (auto const& row : stored.products->rows) {
+        if (row.verdict == box_verdict::inside &&
+            interval_traits<I>::lower(share({row.set}, 256, keep_going)) > 0) {
+            return found;
+        }
+    }
+    return {found.what, check_finding::outcome::undecided,
+            "no proof that any parameters have the products that are inside"};
 }
 
 /// The volumes are those of the preimages of the products' boxes.
@@ -167,20 +178,22 @@ check_volumes_of_products(identification_problem const& problem,
         auto const volume =
             intersect(interval_traits<interval>::bounds(traits::lower(share), traits::upper(share)),
                       interval_traits<interval>::bounds(0.0, 1.0));
-        double const room = 1e-9 * volume.upper() + 1e-300;
-        if (is_empty(stated) || io_detail::apart(volume, stated) > room) {
+        // Of each end: what is next to nothing of all that is left may be all that is inside.
+        double const below = 1e-9 * volume.lower(), above = 1e-9 * volume.upper();
+        if (is_empty(stated) || stated.lower() > volume.upper() + above ||
+            stated.upper() < volume.lower() - below) {
             return {what, outcome::refuted, "the " + which + " volume is not that of the products"};
         }
         auto const repeated = again(boxes, volume_cells(left.size()), 2e-3, keep_going);
         if (keep_going && !keep_going()) return io_detail::late(what);
-        double const slack = 0.05 * width(repeated) + room;
+        double const slack = 0.05 * width(repeated) + above;
         if (std::abs(repeated.lower() - stated.lower()) > slack ||
             std::abs(repeated.upper() - stated.upper()) > slack) {
             return {what, outcome::refuted,
                     "the " + which + " volume is not the one found for the products"};
         }
-        proved = proved && stated.lower() <= volume.lower() + room &&
-                 volume.upper() <= stated.upper() + room;
+        proved = proved && stated.lower() <= volume.lower() + below &&
+                 volume.upper() <= stated.upper() + above;
     }
     if (!proved) return {what, outcome::undecided, "as found, but the enclosures are too wide"};
     return {what, outcome::verified,

@@ -24,21 +24,29 @@ inline bool met_by(std::vector<paved_box> const& rows, box const& image) {
     });
 }
 
-/// What the boxes of parameters, the witness and the boxes of products say of each other.
+inline box image_of(stored_products const& rebuilt, box const& x) {
+    box image(rebuilt.sides.size());
+    for (std::size_t k = 0; k < image.size(); ++k)
+        image[k] = rebuilt.sides[k].over(x).value_or(interval_traits<interval>::entire());
+    return image;
+}
+
+/// What the boxes of parameters and of products say of each other.
 /// @cost  rows of the one times rows of the other, at most
 inline std::string drawing_fault(stored_identification const& stored,
                                  stored_products const& rebuilt) {
-    auto const image_of = [&](box const& x) {
-        box image(rebuilt.sides.size());
-        for (std::size_t k = 0; k < image.size(); ++k)
-            image[k] = rebuilt.sides[k].over(x).value_or(interval_traits<interval>::entire());
-        return image;
-    };
-    auto const& products = stored.products->rows;
     for (auto const& row : stored.rows) {
-        if (row.verdict != box_verdict::outside && !met_by(products, image_of(row.set)))
+        if (row.verdict != box_verdict::outside &&
+            !met_by(stored.products->rows, image_of(rebuilt, row.set)))
             return "a box of parameters has products in no box of products";
     }
+    return {};
+}
+
+/// What the boxes say of the witness.
+/// @param rebuilt  null where there are no products
+inline std::string witness_fault(stored_identification const& stored,
+                                 stored_products const* rebuilt) {
     if (!stored.witness) return {};
     box at(stored.parameters.size());
     for (std::size_t j = 0; j < at.size(); ++j) {
@@ -47,7 +55,8 @@ inline std::string drawing_fault(stored_identification const& stored,
         at[j] = interval(own->second);
     }
     if (!met_by(stored.rows, at)) return "the witness lies in no box";
-    if (!met_by(products, image_of(at))) return "the witness lies in no box of products";
+    if (rebuilt != nullptr && !met_by(stored.products->rows, image_of(*rebuilt, at)))
+        return "the witness lies in no box of products";
     return {};
 }
 
@@ -61,9 +70,11 @@ inline void require_consistent(identification_problem const& data,
     auto const refuse = [&](std::string const& what) {
         throw input_error{{.file = file.string()}, what, "identify the data anew"};
     };
+    auto const contradicts = [&](std::string const& fault) {
+        if (!fault.empty()) refuse("the result contradicts itself: " + fault);
+    };
     auto const contradicted = [&](check_finding const& found) {
-        if (found.found == outcome::refuted)
-            refuse("the result contradicts itself: " + found.what + ": " + found.detail);
+        if (found.found == outcome::refuted) contradicts(found.what + ": " + found.detail);
     };
     require_same_problem(data, stored, file);
     for (auto const& e : data.experiments) {
@@ -84,7 +95,7 @@ inline void require_consistent(identification_problem const& data,
     auto const inputs = input_assumption(data.experiments);
     if (std::find(stored.assumptions.begin(), stored.assumptions.end(), inputs) ==
         stored.assumptions.end())
-        refuse("the result contradicts itself: it does not assume '" + inputs + "'");
+        contradicts("it does not assume '" + inputs + "'");
     contradicted(check_rows(data, stored));
     contradicted(check_verdict(stored));
     if (stored.products) {
@@ -92,9 +103,10 @@ inline void require_consistent(identification_problem const& data,
         contradicted(check_products(rebuilt, *stored.products));
         contradicted(check_hull_of_products<interval>(data, stored, rebuilt));
         contradicted(check_combinations_of_products(stored));
-        auto const fault = drawing_fault(stored, rebuilt);
-        if (!fault.empty()) refuse("the result contradicts itself: " + fault);
+        contradicts(drawing_fault(stored, rebuilt));
+        contradicts(witness_fault(stored, &rebuilt));
     } else {
+        contradicts(witness_fault(stored, nullptr));
         contradicted(check_hull(data, stored));
         contradicted(check_volumes(data, stored));
         contradicted(check_combinations<interval>(data, stored));
