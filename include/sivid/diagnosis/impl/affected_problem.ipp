@@ -84,10 +84,11 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
                                            std::vector<effect> const& effects) {
     identification_problem result{with(base.model, effects), base.choice, {}, base.experiments};
     auto const& inputs = result.model.about.inputs;
-    auto const constants = constant_ranges(base.model, base.choice, base.prior);
     std::map<std::string, interval> turns; // by effect
     for (auto const& e : effects)
         if (e.wraps) turns[e.name] = diagnosis_detail::turn_of(base, e);
+    std::vector<interval> constants;
+    if (!turns.empty()) constants = constant_ranges(base.model, base.choice, base.prior);
     for (auto& x : result.experiments) {
         for (auto k = base.model.about.inputs.size(); k < inputs.size(); ++k) {
             auto const& copies = result.model.input_copies;
