@@ -40,11 +40,11 @@ namespace console {
 
 /// The ranges of all parameters of a model that explains the data, on the terminal, and as
 /// model.html and model.json; with its boxes in the folder model, for predict, verify, control.
-/// @param effects  joined to the data set's model, by name
+/// @param effects  joined to the data set's model
 /// @param data     what it was identified from
 /// @throws sivid::output_error
 inline void write_identified_model(sivid::identification_problem const& problem,
-                                   std::vector<std::string> const& effects,
+                                   std::vector<sivid::effect> const& effects,
                                    sivid::dataset const& data, std::filesystem::path const& folder,
                                    std::filesystem::path const& out, double seconds,
                                    std::string const& command, progress_line& progress) {
@@ -59,6 +59,10 @@ inline void write_identified_model(sivid::identification_problem const& problem,
                      "parameters say\n";
         return;
     }
+    std::vector<std::string> names;
+    for (auto const& e : effects) names.push_back(e.name);
+    auto assumptions = data.assumptions;
+    for (auto& words : sivid::wrap_assumptions(effects)) assumptions.push_back(std::move(words));
     sivid::identify_options options;
     options.search.seconds = seconds;
     options.search.keep_going = [] { return !interrupted(); };
@@ -73,7 +77,7 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     auto const motion = sivid::find_explaining_motion(problem, found, 240, limit);
     auto const view = report::view_of(problem, found, motion ? &*motion : nullptr,
                                       {.dataset = data.id,
-                                       .further_assumptions = data.assumptions,
+                                       .further_assumptions = assumptions,
                                        .date = today(),
                                        .machine = machine_text(),
                                        .command = command,
@@ -87,18 +91,18 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     }
     sivid::file_set files(out);
     files.add("model.html", report::identification_page(view).str());
-    files.add("model.json", sivid::identification_json(problem, found,
-                                                       {.dataset = data.id,
-                                                        .effects = effects,
-                                                        .further_assumptions = data.assumptions}));
+    files.add("model.json",
+              sivid::identification_json(
+                  problem, found,
+                  {.dataset = data.id, .effects = names, .further_assumptions = assumptions}));
     files.commit();
     sivid::file_set result(out / "model");
     add_result_tables(result, problem, found);
     result.add("result.json",
                sivid::identification_json(problem, found,
                                           {.dataset = data.id,
-                                           .effects = effects,
-                                           .further_assumptions = data.assumptions,
+                                           .effects = names,
+                                           .further_assumptions = assumptions,
                                            .source_folder = seen_from(out / "model", folder),
                                            .source_digest = sivid::dataset_digest(folder)}));
     result.commit();
@@ -146,8 +150,7 @@ inline int diagnose_folder(sivid::recorded_model const& model,
                            run.result.answer == sivid::answer_kind::effects;
     if (explained && left() > 0 && !interrupted()) {
         auto const& answer = run.candidates[run.answer];
-        std::vector<std::string> effects;
-        for (auto const k : answer.figures.effects) effects.push_back(run.catalogue[k].name);
+        auto const effects = sivid::holdout::effects_of(answer, run.catalogue);
         write_identified_model(answer.problem, effects, data, folder, out,
                                std::min(left(), 0.25 * budget), command, progress);
     }

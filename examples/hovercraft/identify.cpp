@@ -333,7 +333,8 @@ int run(identify_command const& c) {
             "other effects say, are identified slice by slice, by one process: give a budget and "
             "no other options of a search");
     auto const title = title_of(data, c.effects);
-    auto const further = assumptions_of(data, model, c.effects);
+    auto const further = // one that remembers says itself what its effects rest on
+        remembering ? data.assumptions : assumptions_of(data, model, c.effects);
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");

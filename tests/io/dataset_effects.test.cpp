@@ -66,6 +66,10 @@ TEST_CASE("what the catalogue lacks is refused, and signs that an effect is not 
                ContainsSubstring("/dry_friction: the effect has no parameter 'mass'"));
     CHECK_THAT(refused(R"({ "dry_friction": { ")" + k + R"(": [-1, 1] } })"),
                ContainsSubstring("reaches beyond 0"));
+    auto limited = catalogue();
+    limited.push_back(effects::input_rate_limit("limit", "F", "N/s", {1_dec, 9_dec}));
+    CHECK_THROWS_WITH(chosen_effects(limited, with(R"({ "limit": { "R": [0, 9] } })")),
+                      ContainsSubstring("'R' reaches 0"));
     CHECK_THAT(refused(R"({ "dry_friction": { ")" + k + R"(": [2, 1] } })"),
                ContainsSubstring("lower is above upper"));
     CHECK_THAT(refused(R"({ "dry_friction": "on" })"), ContainsSubstring("write \"off\""));

@@ -42,6 +42,8 @@ TEST_CASE("each defect of a problem is named") {
     refused("no experiment");
     p.experiments[0].initial = box{};
     refused("E0");
+    p.experiments[0].inputs.push_back(sampled_signal({0}, {1}, interpolation::hold));
+    refused("signals were given");
     p.experiments[0].initial[0] = empty;
     refused("initial box is empty");
     p.experiments[0].measurements.clear();

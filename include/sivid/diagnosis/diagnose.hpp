@@ -13,7 +13,8 @@ namespace sivid {
 
 /// Says whether a model explains a campaign; if not, by how much it misses, and which effects of a
 /// catalogue explain what is missing.
-/// @throws std::invalid_argument  for an invalid problem
+/// @throws std::invalid_argument  for an invalid problem, an effect that cannot be joined to the
+///         model, and effects without names of their own (`require_distinct`)
 /// @guarantee  what is called proved, certified, excluded or explained is a theorem under the
 ///             assumptions listed; the rest is an estimate (`diagnosis`)
 /// @cost  a fit for each effect and each pair, validated runs for the best: seconds for three

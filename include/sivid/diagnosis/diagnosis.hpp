@@ -174,8 +174,9 @@ struct noise_growth {
     enum class with { value, rate };
     with what = with::value;
     /// The least c >= 0 with which bounds e + c |y|, or e + c |dy/dt|, let a parameter explain all
-    /// data; y is the output at the fit `shown`, numbers like any. Both ends are proved. A channel
-    /// whose time stamps are off by up to c seconds has about such errors.
+    /// data; y is the output at the fit `shown`, numbers like any, and what is less than a
+    /// millionth of the largest counts as 0. Both ends are proved. A channel whose time stamps are
+    /// off by up to c seconds has about such errors.
     interval coefficient{0.0};
     /// By how much likelier uniform noise within these bounds is than noise within the bounds that
     /// are so many times as wide (`confined_gap::factor`): natural logarithm, of fits.

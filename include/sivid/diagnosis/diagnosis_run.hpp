@@ -77,7 +77,9 @@ struct diagnosis_run {
 
 /// Judges the model and the answer of a diagnosis by hold-out data and adds the figures: the only
 /// place where such data are read, after everything is chosen.
+/// Where the model itself is the closest candidate, it alone is judged.
 /// @param seconds, boxes  what all of it may spend, see `step_effort`
+/// @throws std::invalid_argument  for hold-out experiments that do not fit the model
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
                                  data_test_options const& test = {}, std::size_t boxes = 120);
 

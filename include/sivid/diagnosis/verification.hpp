@@ -32,7 +32,6 @@ namespace sivid {
                                                   data_test_options const& options = {}) {
     verified_inflation result;
     if (guess.parameters.size() != problem.prior.size()) return result;
-    if (remembers_formulas(problem)) return result; // nothing is known
     auto at = problem;
     bool uncertain = false;
     for (auto& e : at.experiments) {
@@ -41,6 +40,7 @@ namespace sivid {
     }
     at.prior = point_within(problem.prior, guess.parameters);
     auto const p = mid(at.prior);
+    if (remembers_formulas(at) || remembers_nonsense(at, p)) return result; // nothing is known
     start_added_states(at);
     std::vector<box> starts;
     for (std::size_t s = 0; s < at.experiments.size(); ++s) {

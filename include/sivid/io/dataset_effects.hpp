@@ -40,8 +40,8 @@ namespace sivid {
 /// The effects of a catalogue that a data set leaves on, with its priors where it states some.
 /// @given  `data` outlives what is returned: its texts are the bounds' decimals
 /// @throws input_error  for an effect or a parameter that the catalogue lacks, and for priors that
-///                      reach beyond 0 where the catalogue's own does not: times, widths and delays
-///                      are not made for that
+///                      reach 0, or beyond it, where the catalogue's own does not: rate limits, or
+///                      times, widths and delays, are not made for that
 [[nodiscard]] inline std::vector<effect> chosen_effects(std::vector<effect> catalogue,
                                                         dataset const& data) {
     auto const as_decimal = [](std::string const& text) {
@@ -77,6 +77,11 @@ namespace sivid {
                 fail(text_of("the prior of ", in_quotes(prior.parameter),
                              " reaches beyond 0, for which the effect is not made"),
                      "keep its sign");
+            if ((nearest(p->lower) > 0 && !(nearest(lower) > 0)) ||
+                (nearest(p->upper) < 0 && !(nearest(upper) < 0)))
+                fail(text_of("the prior of ", in_quotes(prior.parameter),
+                             " reaches 0, for which the effect is not made"),
+                     "let it end before 0");
             p->lower = lower;
             p->upper = upper;
         }

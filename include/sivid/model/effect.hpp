@@ -145,7 +145,8 @@ public:
 
     /// A further state, whose rate the effect sets.
     /// @param limit     own range |x| <= limit
-    /// @param at_begin  its initial value, in inputs (at the begin) and constants
+    /// @param at_begin  its initial value, in inputs (at the begin), constants, and states that
+    ///                  effects added before
     expression add_state(std::string const& name, std::string const& unit, double limit,
                          expression const& at_begin);
     /// The model sees the input behind a play, whose half-width is the effect's k-th parameter.
@@ -215,6 +216,12 @@ private:
                                             std::vector<double> since = {},
                                             std::vector<double> until = {});
 
+/// For effects that are known by their names: each has one of its own, which no input of the model
+/// has, and begins and ends once in an experiment.
+/// @throws std::invalid_argument  that names what does not fit
+SIVID_DECL void require_distinct(model_description const& about,
+                                 std::vector<effect> const& effects);
+
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
 /// neutral value; states that they add, and switches of those that act in some experiments only,
 /// stand behind the model's own states and inputs.
@@ -222,9 +229,11 @@ private:
 ///   rate limits do not act (`acts_in`); states of its own go on, and nothing sees them. One that
 ///   begins or ends within an experiment has its delay, play or rate limit on a copy of the input,
 ///   which the model sees while it acts.
-/// @throws std::invalid_argument  when an effect names what the model lacks, stands twice, or has
-///         the name of an input; when the model has a copy of an input, for an effect that was
-///         joined before, and an effect names that input but not the copy
+/// @throws std::invalid_argument  when an effect names what the model lacks, or changes the size of
+/// a
+///         delay, play or rate limit; as `require_distinct`; and when the model has a copy of an
+///         input, for an effect that was joined before, and an effect names that input but not the
+///         copy
 [[nodiscard]] SIVID_DECL recorded_model with(recorded_model const& base,
                                              std::vector<effect> effects);
 
@@ -238,6 +247,7 @@ template <dynamic_model M, std::same_as<effect>... Effects>
 
 #ifndef SIVID_COMPILED
 #include <sivid/model/impl/effect.ipp>
+#include <sivid/model/impl/effect_names.ipp>
 #include <sivid/model/impl/effect_scope.ipp>
 #endif
 

@@ -70,17 +70,37 @@ struct identification_problem {
                                             "without it (of the original one, before a change of "
                                             "variables)");
     }
-    /// For what knows experiments by their names: a diagnosis, windows of equations.
-    /// @throws std::invalid_argument as `require_data`, and where two experiments have one name
+    /// For what knows experiments and equations by their names: a diagnosis, windows of equations.
+    /// @throws std::invalid_argument  as `require_data`, and where two have one name
     void require_valid_campaign() const {
         require_data();
-        for (std::size_t s = 0; s < experiments.size(); ++s)
-            for (std::size_t k = 0; k < s; ++k)
-                if (experiments[k].name == experiments[s].name)
-                    throw std::invalid_argument("identification problem: two experiments are "
-                                                "called '" +
-                                                experiments[s].name +
-                                                "'; give each a name of its own");
+        auto const require_own_names = [](std::string const& what, auto const& all, auto name_of) {
+            for (std::size_t s = 0; s < all.size(); ++s)
+                for (std::size_t k = 0; k < s; ++k)
+                    if (name_of(all[k]) == name_of(all[s]))
+                        throw std::invalid_argument("identification problem: two " + what +
+                                                    " are called '" + name_of(all[s]) +
+                                                    "'; give each a name of its own");
+        };
+        require_own_names("experiments", experiments, [](auto const& e) { return e.name; });
+        require_own_names("equations", model.about.states,
+                          [](auto const& s) { return s.equation_name(); });
+    }
+    /// @throws std::invalid_argument  where an experiment has not one signal for each input and one
+    ///         initial range for each state
+    void require_all_inputs_and_states() const {
+        for (auto const& e : experiments) {
+            auto const fail = [&e](std::string const& what) {
+                throw std::invalid_argument("identification problem: experiment '" + e.name +
+                                            "': " + what);
+            };
+            auto const wanted = model.about.inputs.size(), given = e.inputs.size();
+            if (given != wanted)
+                fail("the model '" + model.about.name + "' has " + std::to_string(wanted) +
+                     " inputs, but " + std::to_string(given) + " signals were given");
+            if (e.initial.size() != model.about.states.size())
+                fail("the initial box needs one side per state");
+        }
     }
     /// @throws std::invalid_argument that names what does not fit
     void require_valid() const {
@@ -100,11 +120,9 @@ struct identification_problem {
         if (is_empty(prior)) fail("the prior is empty");
         if (!bounded(prior)) fail("the prior must be bounded");
         if (experiments.empty()) fail("no experiment");
+        require_all_inputs_and_states();
         for (auto const& s : experiments) {
             auto const where = "experiment '" + s.name + "': ";
-            if (s.initial.size() != model.about.states.size()) {
-                fail(where + "the initial box needs one side per state");
-            }
             if (is_empty(s.initial)) fail(where + "the initial box is empty");
             if (!bounded(s.initial)) fail(where + "the initial box must be bounded");
             if (!std::isfinite(s.begin)) fail(where + "it begins at no finite time");

@@ -76,7 +76,8 @@ template <class Keep>
 ///   \f$ \lambda^* = \min_p \max_s \min_{x_{0s}} (q_s+1)\text{-th largest } |y_i - m_i|/e_i \f$;
 /// the boxes of the initial states and the error bounds of inputs do not grow; where inputs have
 /// such bounds, the least is over them, too. lower > 1 proves that no parameter explains the
-/// data, upper <= 1 that one does.
+/// data, upper <= 1 that one does. Below, states that follow the parameters
+/// (`starts_follow_parameters`) start anywhere in their ranges; above, where the parameters say.
 /// @param guess  where the upper bound may start; without it the search proposes points itself
 /// @returns  a factor without unit
 /// @throws std::invalid_argument  for an invalid problem

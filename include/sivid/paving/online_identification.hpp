@@ -29,7 +29,8 @@ class online_identifier;
 class online_identification {
 public:
     /// @param problem  its measurements, which may be none, are the first update
-    /// @throws std::invalid_argument as `identify` does
+    /// @throws std::invalid_argument  as `identify` does, and where states that effects added start
+    ///         at what parameters say
     explicit online_identification(identification_problem problem, online_options options = {});
     ~online_identification();
     online_identification(online_identification const&) = delete; // its parts refer to each other

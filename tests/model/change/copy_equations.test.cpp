@@ -37,3 +37,19 @@ TEST_CASE("equations are copied with other leaves, and what else a model says st
     CHECK(contains(range.value(to.rate[0]), 11.0));
     CHECK(contains(range.value(to.observe[0]), 3.0));
 }
+
+TEST_CASE("an added state begins behind others, and behind states of the model as before") {
+    auto m =
+        support::model_of({.states = 4, .inputs = 1},
+                          [](auto const&, auto const& x, auto const&, auto const&) { return x; });
+    auto const state = [&m](std::size_t k) { return m.g.leaf(sivid::operation::state, k); };
+    m.added_states = {{1, m.g.leaf(sivid::operation::input, 0)},
+                      {2, m.g.mul(m.g.constant(2.0), state(1))},
+                      {3, m.g.add(state(0), state(2))}};
+    sivid::start_behind_others(m);
+    sivid::graph_range range(m.g, {m.added_states[2].at_begin});
+    range.evaluate(
+        {sivid::interval(0.0), sivid::point_box({5, 100, 100, 100}), {}, sivid::point_box({3})});
+    CHECK(contains(range.value(m.added_states[2].at_begin), 11.0));
+    CHECK((m.g.depends(m.added_states[1].at_begin) & sivid::on_state) == 0);
+}

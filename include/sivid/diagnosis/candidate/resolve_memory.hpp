@@ -67,6 +67,34 @@ namespace sivid {
     return sampled_signal(std::move(times), std::move(values), sampled.kind(), std::move(errors));
 }
 
+/// Whether delays, plays, drifts or rate limits of all these sizes mean something.
+[[nodiscard]] inline bool has_meaning(memory_kind kind, interval const& sizes) {
+    return kind == memory_kind::rate_limit ? sizes.lower() > 0 : sizes.lower() >= 0;
+}
+
+/// The size of a memory at a point of the parameters.
+[[nodiscard]] inline double size_of(identification_problem const& problem, signal_memory const& m,
+                                    std::vector<double> const& parameters) {
+    auto const& own = problem.model.about.constants[m.constant];
+    auto const& unknown = problem.choice.unknown;
+    auto const j = std::find(unknown.begin(), unknown.end(), own.name) - unknown.begin();
+    if (static_cast<std::size_t>(j) < unknown.size())
+        return parameters.at(static_cast<std::size_t>(j));
+    auto const f = problem.choice.fixed.find(own.name);
+    return f != problem.choice.fixed.end() ? mid(f->second) : own.nominal.nearest;
+}
+
+/// Whether some input or channel has a memory whose size means nothing there.
+[[nodiscard]] inline bool remembers_nonsense(identification_problem const& problem,
+                                             std::vector<double> const& parameters) {
+    auto const is_nonsense = [&](signal_memory const& m) {
+        return !has_meaning(m.kind, interval(size_of(problem, m, parameters)));
+    };
+    auto const& model = problem.model;
+    return std::ranges::any_of(model.input_memory, is_nonsense) ||
+           std::ranges::any_of(model.channel_delays, is_nonsense);
+}
+
 /// A problem at one value of its delays, plays and rate limits, in which no signal has a memory any
 /// more.
 struct memory_resolved {
@@ -114,7 +142,8 @@ counts_of_late(sampled_signal const& counts, std::optional<dead_time> const& lat
 /// accordingly, and puts inputs behind their limits, then behind their plays, with errors that
 /// cover the roundings.
 ///   Times that a delay moves are rounded to the nearest double; everything else is exact.
-/// @throws std::invalid_argument for a negative size, and for a play or a rate limit of a formula
+/// @throws std::invalid_argument  for a size that means nothing (`has_meaning`), and for a play or
+///         a rate limit of a formula
 [[nodiscard]] inline memory_resolved resolve_memory(identification_problem const& original,
                                                     std::vector<double> const& parameters) {
     if (remembers_formulas(original))
@@ -124,15 +153,10 @@ counts_of_late(sampled_signal const& counts, std::optional<dead_time> const& lat
     auto& problem = result.problem;
     auto& model = problem.model;
     auto const value_of = [&](signal_memory const& d) {
-        auto const& name = model.about.constants[d.constant].name;
-        double value = model.about.constants[d.constant].nominal.nearest;
-        if (auto const f = original.choice.fixed.find(name); f != original.choice.fixed.end()) {
-            value = mid(f->second);
-        }
-        for (std::size_t j = 0; j < original.choice.unknown.size(); ++j) {
-            if (original.choice.unknown[j] == name) value = parameters.at(j);
-        }
-        if (!(value >= 0)) throw std::invalid_argument("'" + name + "' is negative");
+        double const value = size_of(original, d, parameters);
+        if (!has_meaning(d.kind, interval(value)))
+            throw std::invalid_argument("'" + model.about.constants[d.constant].name +
+                                        "' is negative, or the limit of a rate and not above 0");
         return value;
     };
     auto const add_to = [&](dead_time& late, signal_memory const& d) {

@@ -55,9 +55,8 @@ public:
         tried_candidates result;
         result.singles = count(singles());
         if (result.singles.tried < result.singles.planned) {
-            auto const n = planned_;
-            auto const k = std::min(n, options_.partners);
-            result.pairs.planned = k * (n - k) + k * (k - std::min<std::size_t>(k, 1)) / 2;
+            auto const k = std::min(planned_, options_.partners);
+            result.pairs.planned = k * (planned_ - k) + k * (k - std::min<std::size_t>(k, 1)) / 2;
         } else {
             result.pairs = count(pairs());
         }
@@ -179,13 +178,13 @@ public:
     /// Fits one set of effects, unless that was done.
     void try_one(std::vector<std::size_t> const& effects) { try_all({effects}); }
 
-    /// Fits sets of effects of which none contains another, each unless that was done; several at
-    /// once where there are workers.
+    /// Fits sets of effects of which none contains another, each unless that was done or cannot be;
+    /// several at once where there are workers.
     void try_all(effect_sets const& wanted) {
         effect_sets open;
         for (auto const& effects : wanted) {
             bool const known = std::find(open.begin(), open.end(), effects) != open.end();
-            if (!known && find(effects) == nullptr) open.push_back(effects);
+            if (!known && find(effects) == nullptr && possible(effects)) open.push_back(effects);
         }
         std::vector<std::optional<screened>> fitted(open.size());
         auto const keep = [&](std::size_t k, screened s, bool whole) {
@@ -249,12 +248,17 @@ private:
     [[nodiscard]] effect_sets joined(effect_sets const& sets) const {
         effect_set planned(planned_);
         std::iota(planned.begin(), planned.end(), std::size_t{0});
-        return sivid::joined(sets, planned);
+        return sivid::joined(sets, planned, impossible_);
     }
     [[nodiscard]] tried_candidates::count count(effect_sets const& planned) const {
         auto const known = [this](auto const& set) { return find(set) != nullptr; };
         return {static_cast<std::size_t>(std::count_if(planned.begin(), planned.end(), known)),
                 planned.size()};
+    }
+    /// Whether effects can be joined: what the catalogue states has to be, alone.
+    [[nodiscard]] bool possible(effect_set const& effects) {
+        bool const stated = effects.empty() || (effects.size() == 1 && effects[0] < planned_);
+        return stated || impossible_.allow(effects, [&] { (void)posed(effects); });
     }
     /// Joins every other effect to the likeliest candidates of size - 1 effects, so many of them.
     /// What explains must then do without each of its effects, or a smaller candidate is the
@@ -385,6 +389,7 @@ private:
     std::size_t planned_ = catalogue_.size(); ///< of them; wider ones follow
     screening_options options_;
     std::vector<screened> tried_;
+    impossible_sets impossible_;
     std::size_t measurements_ = 0;
     bool stopped_ = false; ///< changed by one thread at a time
     clock::time_point begin_ = clock::now();

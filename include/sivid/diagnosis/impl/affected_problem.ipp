@@ -82,6 +82,7 @@ inline signal wraps_in(experiment const& x, identification_problem const& base,
 
 SIVID_DECL identification_problem affected(identification_problem const& base,
                                            std::vector<effect> const& effects) {
+    base.require_all_inputs_and_states();
     identification_problem result{with(base.model, effects), base.choice, {}, base.experiments};
     auto const& inputs = result.model.about.inputs;
     std::map<std::string, interval> turns; // by effect

@@ -47,6 +47,7 @@ public:
         run_.base = std::move(base);
         run_.catalogue = std::move(catalogue);
         run_.base.require_valid_campaign();
+        require_distinct(run_.base.model.about, run_.catalogue);
         options_.screening.progress = [this](std::string const& what) {
             return effort_.left() > kept_ && effort_.go_on("trying " + what);
         };
@@ -265,8 +266,7 @@ private:
         run_.catalogue = tried.catalogue();
         auto& d = run_.result;
         d.tried = tried.counts();
-        std::vector<candidate> figures;
-        for (auto const& c : run_.candidates) figures.push_back(c.figures);
+        auto const figures = tried.figures();
         candidate_order order(figures, tried.measurements(), options_.choice);
         run_.answer = order.answer();
         run_.answer_bound = {};

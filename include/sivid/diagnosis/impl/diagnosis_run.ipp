@@ -20,12 +20,13 @@ namespace sivid {
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
                                  data_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
+    data.judged_by(run.candidates.front(), run.base, run.catalogue).require_valid_campaign();
     auto const begin = std::chrono::steady_clock::now();
     auto const elapsed = [begin] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     // Whether effects of some scenarios act in the hold-out ones nobody knows, and perhaps not how
-    // often their readings had wrapped.
+    // often their readings had wrapped. Without effects the answer is the model itself, no cause.
     auto const partial = [](effect const& e) { return !e.only_in.empty(); };
     auto const poses = [&](screened const& candidate) {
         try {
@@ -36,7 +37,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         }
     };
     bool const answered =
-        !run.result.causes.empty() &&
+        run.answer != 0 && !run.result.causes.empty() &&
         std::ranges::none_of(holdout::effects_of(run.candidates[run.answer], run.catalogue),
                              partial) &&
         poses(run.candidates[run.answer]);
@@ -45,16 +46,8 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
                            explained_hull const& explaining, double share) {
         auto const judged = data.judged_by(candidate, run.base, run.catalogue);
         std::optional<fitted_set> over;
-        if (explaining.parameters.size() == judged.prior.size()) {
-            auto const effects = holdout::effects_of(candidate, run.catalogue);
-            auto const fit = sliced_input_of(run.base, effects);
-            auto own = data.judged_over(candidate, run.base, run.catalogue, explaining.parameters);
-            if (fit && own) {
-                auto posed = fit->over(explaining.parameters);
-                auto told = products_in(posed, judged, *fit, explaining.products);
-                over = {std::move(posed), std::move(*own), std::move(told)};
-            }
-        }
+        if (explaining.parameters.size() == judged.prior.size())
+            over = data.judged_over(candidate, run.base, run.catalogue, explaining);
         inflation_options search;
         // What the answer leaves open is worth more than what the model without it does.
         bool const before = answered && candidate.figures.effects.empty();

@@ -28,6 +28,7 @@ SIVID_DECL identification identify_remembering(identification_problem const& bas
     problem.require_data();
     identification result(problem.prior);
     result.assumptions.push_back(input_assumption(problem.experiments));
+    for (auto& words : wrap_assumptions(effects)) result.assumptions.push_back(std::move(words));
     {
         work_limit const first(0.33 * options.seconds, options.keep_going);
         screening_options fitting;

@@ -6,11 +6,15 @@
 #include <sivid/model/graph/graph_range.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -65,6 +69,52 @@ namespace sivid {
         throw std::domain_error("the initial value of state '" +
                                 model.about.states[added.state].name + "' is not defined");
     return value;
+}
+
+/// Sets the initial ranges of the states that effects added, for the parameters in the prior.
+/// @throws std::domain_error where such a value is not defined
+inline void start_added_states(identification_problem& problem) {
+    auto const& about = problem.model.about;
+    auto const constants = constant_ranges(problem.model, problem.choice, problem.prior);
+    for (auto& e : problem.experiments) {
+        std::vector<interval> sides(e.initial.begin(), e.initial.end());
+        sides.resize(about.states.size());
+        for (auto const& a : problem.model.added_states) {
+            sides[a.state] = start_of(problem.model, a, constants, e.inputs, e.begin);
+        }
+        e.initial = box(std::move(sides));
+    }
+}
+
+/// Whether a state that effects added starts at a value that the parameters decide, or inputs
+/// within their errors: of its initial range then only one value belongs to a parameter.
+[[nodiscard]] inline bool starts_follow_parameters(identification_problem const& problem) {
+    return std::any_of(
+        problem.experiments.begin(), problem.experiments.end(), [&](experiment const& e) {
+            return std::any_of(problem.model.added_states.begin(), problem.model.added_states.end(),
+                               [&](added_state const& a) { return width(e.initial[a.state]) > 0; });
+        });
+}
+
+/// A start of an experiment at a point of the parameters, where states that follow them begin as
+/// they say, with the inputs as recorded; nothing where that is not within the initial box.
+/// @param start  of the other states
+[[nodiscard]] inline std::optional<box> start_that_follows(identification_problem const& problem,
+                                                           std::size_t experiment,
+                                                           box const& parameters, box start) {
+    auto const& e = problem.experiments[experiment];
+    std::vector<interval> constants;
+    std::vector<signal> inputs;
+    for (auto const& a : problem.model.added_states) {
+        if (!(width(e.initial[a.state]) > 0)) continue;
+        if (constants.empty()) {
+            constants = constant_ranges(problem.model, problem.choice, parameters);
+            inputs = nominal(e.inputs);
+        }
+        start[a.state] =
+            intersect(start_of(problem.model, a, constants, inputs, e.begin), e.initial[a.state]);
+    }
+    return is_empty(start) ? std::nullopt : std::optional(std::move(start));
 }
 
 } // namespace sivid

@@ -5,6 +5,7 @@
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -30,6 +31,23 @@ void copy_equations(recorded_model& to, recorded_model const& from, Leaf&& leaf)
     if (!to.stated) return;
     for (auto& row : to.stated->mass) row = copy_into(to.g, from.g, row, leaf);
     to.stated->force = copy_into(to.g, from.g, to.stated->force, leaf);
+}
+
+/// States that were added to a model may begin where others of them do (a lag behind a lag): in
+/// their place stands what these begin at.
+inline void start_behind_others(recorded_model& model) {
+    auto& all = model.added_states;
+    for (auto& a : all) {
+        if ((model.g.depends(a.at_begin) & on_state) == 0) continue;
+        auto const seen = model.g;
+        a.at_begin = copy_into(model.g, seen, {a.at_begin}, [&](node const& n, graph& to) {
+                         auto const k = static_cast<std::size_t>(n.index);
+                         auto const it = std::find_if(all.begin(), all.end(), [&](auto const& x) {
+                             return n.op == operation::state && x.state == k;
+                         });
+                         return it == all.end() ? to.leaf(n.op, k) : it->at_begin;
+                     }).front();
+    }
 }
 
 } // namespace sivid

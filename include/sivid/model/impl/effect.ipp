@@ -6,8 +6,6 @@
 #include <sivid/model/effect.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -18,14 +16,6 @@
 namespace sivid {
 
 namespace detail {
-/// A time as people write it, which reads back as the same double.
-inline std::string time_text(double t) {
-    std::array<char, 400> text{};
-    auto const end =
-        std::to_chars(text.data(), text.data() + text.size(), t, std::chars_format::fixed);
-    return {text.data(), end.ptr};
-}
-
 /// The end of a prior that is farther from 0.
 inline literal farther_end(effect_parameter const& p) {
     auto const& end = std::abs(nearest(p.upper)) < std::abs(nearest(p.lower)) ? p.lower : p.upper;
@@ -57,7 +47,7 @@ SIVID_DECL bool finds_as_recorded(recorded_model const& base, std::vector<effect
     }
     // States whose rates are the input as it stands after them, and all that may depend on it.
     effect seen;
-    seen.name = "seen";
+    seen.name = effects[which].name; // which is not among them
     seen.order = effects[which].order;
     seen.on_inputs = [&](effect_scope& m) {
         auto const show = [&m](std::string const& what, expression const& value) {
@@ -87,31 +77,8 @@ SIVID_DECL bool finds_as_recorded(recorded_model const& base, std::vector<effect
                         [k](auto const& m) { return m.index == k; });
 }
 
-SIVID_DECL effect widened(effect e) {
-    e.name += detail::wider;
-    if (!e.about.empty()) e.about += ", beyond the prior that was stated";
-    for (auto& p : e.parameters) p.widened *= 4;
-    return e;
-}
-
-SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
-                              std::vector<double> since, std::vector<double> until) {
-    std::string names;
-    for (std::size_t k = 0; k < experiments.size(); ++k) {
-        names += (names.empty() ? "@" : "+") + experiments[k];
-        if (k < since.size() && since[k] > effect::from_start)
-            names += ">=" + detail::time_text(since[k]);
-        if (k < until.size() && until[k] < effect::for_ever)
-            names += "<" + detail::time_text(until[k]);
-    }
-    e.name += names;
-    e.only_in = std::move(experiments);
-    e.since = std::move(since);
-    e.until = std::move(until);
-    return e;
-}
-
 SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> effects) {
+    require_distinct(base.about, effects);
     std::stable_sort(effects.begin(), effects.end(),
                      [](effect const& a, effect const& b) { return a.order < b.order; });
     std::vector<bool> const none(effects.size(), false);
@@ -172,15 +139,8 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
             if (on && remembers) unseen[k] = true;
         }
     };
+    auto const stated = scope.constants_;
     apply_all(&effect::on_inputs);
-    auto memory = base.input_memory;
-    memory.insert(memory.end(), base.channel_delays.begin(), base.channel_delays.end());
-    for (auto const& m : memory) {
-        auto const own = result.g.leaf(operation::constant, m.constant);
-        if (scope.constants_[m.constant].in(result.g) == own) continue;
-        throw std::invalid_argument("effect: '" + constants[m.constant].name +
-                                    "' is a delay or a play: it must stay as it is");
-    }
 
     // The model itself, on the time, the inputs and the constants that the effects left.
     auto& g = result.g;
@@ -212,6 +172,12 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     for (auto const& e : scope.rates_) result.rate.push_back(e.in(g));
     if (result.rate != copied) result.stated.reset();
     for (auto const& e : scope.channels_) result.observe.push_back(e.in(g));
+    for (auto const* all : {&result.input_memory, &result.channel_delays})
+        for (auto const& m : *all)
+            if (scope.constants_[m.constant].in(g) != stated[m.constant].in(g))
+                throw std::invalid_argument("effect: '" + constants[m.constant].name +
+                                            "' is a delay or a play: it must stay as it is");
+    start_behind_others(result);
     for (auto const& a : result.added_states)
         if ((g.depends(a.at_begin) & (on_state | on_time)) != 0)
             throw std::invalid_argument("effect: the initial value of state '" +

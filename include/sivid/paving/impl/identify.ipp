@@ -150,7 +150,6 @@ SIVID_DECL identification identify(identification_problem const& problem,
     searched.prepare(result.guess, windows);
     auto const& asked = searched.asked();
     auto& searching = searched.test();
-    if (result.guess) starts = paving_detail::starts_of(*result.guess, asked);
     if (windows) {
         result.windows =
             window_effort{windows->windows, windows->longest, windows->seconds,
@@ -185,7 +184,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
         auto const point = map ? mid(map->forward(point_box(result.witness->parameters)))
                                : result.witness->parameters;
         if (contains(left, point)) {
-            if (auto const core = core_about(searching, left, point, starts)) {
+            if (auto const core = core_about(searching, left, point)) {
                 found.paving = with_inside(found.paving, *core);
             }
         }

@@ -6,6 +6,7 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/model/change/added_start.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/inflation/detail/inflation_search.hpp>
 #include <sivid/paving/judge/witness.hpp>
@@ -127,11 +128,15 @@ private:
     void try_witness(std::vector<double> const& point,
                      std::vector<std::vector<double>> const& starts) {
         verified_witness candidate;
+        auto const parameters = point_within(problem_->prior, point);
         std::vector<box> from;
         for (std::size_t s = 0; s < starts.size(); ++s) {
-            from.push_back(point_within(problem_->experiments[s].initial, starts[s]));
+            auto start =
+                start_that_follows(*problem_, s, parameters,
+                                   point_within(problem_->experiments[s].initial, starts[s]));
+            if (!start) return;
+            from.push_back(std::move(*start));
         }
-        auto const parameters = point_within(problem_->prior, point);
         auto const value = inflation_at(points_, *problem_, parameters, from, candidate);
         if (value.upper() < upper_) {
             upper_ = value.upper();

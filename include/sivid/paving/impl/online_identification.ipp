@@ -5,6 +5,7 @@
 #include <sivid/paving/online_identification.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/change/added_start.hpp>
 #include <sivid/paving/online/detail/online_paving.hpp>
 #include <sivid/paving/online/detail/online_update.hpp>
 #include <sivid/paving/online/detail/online_witness.hpp>
@@ -43,6 +44,9 @@ public:
             e.outliers = 0; // more may be allowed than there are measurements yet
         }
         checked.require_valid();
+        if (starts_follow_parameters(problem_))
+            throw std::invalid_argument("online_identification: states of effects start where "
+                                        "parameters or uncertain inputs say; identify takes them");
         for (auto& e : problem_.experiments) first.push_back(std::exchange(e.measurements, {}));
         structure_ = dependence_of(problem_);
         map_ = reduction::find(problem_, structure_);

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_JUDGE_DATA_TEST_HPP
 #define SIVID_PAVING_JUDGE_DATA_TEST_HPP
 
+#include <sivid/model/change/added_start.hpp>
 #include <sivid/model/change/detail/smoothed.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
@@ -27,7 +28,8 @@ namespace sivid {
 ///   outside: in some experiment more than `outliers` measurements certainly fail, whatever the
 ///   start and, within their error bounds, the inputs; inside: in every experiment at least n -
 ///   `outliers` certainly hold, for the recorded inputs and for some start in the box: the one
-///   given to `set_starts`, or one that follows the parameters (`explaining_starts`).
+///   given to `set_starts`, or one that follows the parameters (`explaining_starts`) where none of
+///   them has to (`starts_follow_parameters`).
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
 class data_test {
 public:
@@ -47,6 +49,7 @@ public:
     data_test(identification_problem const& problem, data_test_options const& options)
         : problem_(&problem), options_(options) {
         problem.require_valid();
+        follows_ = starts_follow_parameters(problem);
         records_.reserve(problem.experiments.size()); // the runs keep references
         for (auto const& e : problem.experiments) {
             auto const flow_with = [&](std::vector<signal> const& inputs) {
@@ -81,7 +84,15 @@ public:
     }
 
     /// Initial states, one box per experiment within its own, from which existence is proved.
-    void set_starts(std::vector<box> starts) { starts_ = std::move(starts); }
+    /// States that effects added keep all of their ranges: where they follow the parameters, each
+    /// has its own there.
+    void set_starts(std::vector<box> starts) {
+        starts_ = std::move(starts);
+        for (std::size_t e = 0; e < starts_.size(); ++e)
+            for (auto const& a : problem_->model.added_states)
+                starts_[e][a.state] = problem_->experiments[e].initial[a.state];
+    }
+    [[nodiscard]] std::vector<box> const& starts() const { return starts_; }
 
     /// What is known from elsewhere to hold every feasible parameter (trusted): the rest of each
     /// box is cut off before it is run.
@@ -278,19 +289,6 @@ public:
     }
 
 private:
-    /// Whether a sharper run might show that a point meets its measurements. Where all may be
-    /// violated, as many as none.
-    [[nodiscard]] static bool on_the_brink(response const& r, box const& point) {
-        auto const values = output_ranges(r, point);
-        std::size_t missed = 0, open = 0;
-        for (std::size_t y = 0; y < values.size(); ++y) {
-            bool const apart = disjoint(values[y], r.bounds[y]);
-            missed += apart ? 1 : 0;
-            open += apart || subset(values[y], r.bounds[y]) ? 0 : 1;
-        }
-        auto const most = r.allowed < r.measurements ? r.allowed : 0;
-        return missed <= most && missed + open > most;
-    }
     /// The recorded flow without kinks; none where it has none.
     [[nodiscard]] std::unique_ptr<flow const> smooth_flow(std::size_t e) const {
         constexpr double share = 1e-7; // of a measurement's width
@@ -374,7 +372,7 @@ private:
     /// Contracts and decides by responses alone. @returns the largest non-affine share.
     double judge(knowledge const& known, assessment<knowledge>& a) const {
         auto found = judge_by_responses(known.all_starts, known.chosen_starts, std::move(a.rest),
-                                        options_.contract, options_.cut);
+                                        {options_.contract, options_.cut, !follows_});
         a.verdict = found.verdict;
         a.rest = std::move(found.rest);
         a.smear = std::move(found.smear);
@@ -387,7 +385,8 @@ private:
     std::vector<std::shared_ptr<flow const>> flows_;
     std::vector<record> records_;
     std::vector<box> starts_;
-    std::optional<box> left_;                                                 ///< of all parameters
+    bool follows_ = false;    ///< some start: the parameters
+    std::optional<box> left_; ///< of all parameters
     std::optional<std::pair<box, std::vector<assessment<knowledge>>>> first_; ///< learnt ahead
     std::vector<std::shared_ptr<flow const>> recorded_;   ///< `flows_`, without input errors
     std::vector<std::unique_ptr<lasting_radii>> lasting_; ///< where inputs have errors

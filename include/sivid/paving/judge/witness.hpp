@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_JUDGE_WITNESS_HPP
 #define SIVID_PAVING_JUDGE_WITNESS_HPP
 
+#include <sivid/model/change/added_start.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/judge/data_test.hpp>
@@ -18,7 +19,7 @@
 namespace sivid {
 
 /// Verifies a guess by one validated run per experiment, at the guessed point and with the recorded
-/// inputs.
+/// inputs; states that follow the parameters start where these say.
 [[nodiscard]] inline std::optional<verified_witness>
 verify_witness(data_test& test, identification_problem const& problem,
                std::vector<double> const& parameters,
@@ -26,9 +27,11 @@ verify_witness(data_test& test, identification_problem const& problem,
     auto point = point_within(problem.prior, parameters);
     verified_witness result{mid(point), {}, {}};
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-        auto const start = point_within(problem.experiments[s].initial, starts[s]);
-        result.starts.push_back(mid(start));
-        auto const answer = test.run_finely(s, start, point);
+        auto const start = start_that_follows(
+            problem, s, point, point_within(problem.experiments[s].initial, starts[s]));
+        if (!start) return std::nullopt;
+        result.starts.push_back(mid(*start));
+        auto const answer = test.run_finely(s, *start, point);
         if (!assess(*answer, point).explained) return std::nullopt;
         auto& violated = result.violated.emplace_back();
         auto const values = output_ranges(*answer, point);

@@ -290,6 +290,20 @@ struct response_verdict {
     return result;
 }
 
+/// Whether a sharper run might show that a point meets its measurements. Where all may be
+/// violated, as many as none.
+[[nodiscard]] inline bool on_the_brink(response const& r, box const& point) {
+    auto const values = output_ranges(r, point);
+    std::size_t missed = 0, open = 0;
+    for (std::size_t y = 0; y < values.size(); ++y) {
+        bool const apart = disjoint(values[y], r.bounds[y]);
+        missed += apart ? 1 : 0;
+        open += apart || subset(values[y], r.bounds[y]) ? 0 : 1;
+    }
+    auto const most = r.allowed < r.measurements ? r.allowed : 0;
+    return missed <= most && missed + open > most;
+}
+
 } // namespace sivid
 
 #endif

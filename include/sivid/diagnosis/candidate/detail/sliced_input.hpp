@@ -35,13 +35,15 @@ struct sliced_input {
 };
 
 /// @param base, effects  outlive what is returned
+/// @param beside  further experiments, which are to be posed in the same form
 /// @returns  nothing where no effect is such a one; where the input of one that has to be is a
 ///           formula, or two change one input
 /// @guarantee  whatever outputs the effects' problem has for parameters in the box, the one over
 ///             the box has for some input within its errors, all else being the same; with late
 ///             channels experiments are split, and samples may be left out
 [[nodiscard]] SIVID_DECL std::optional<sliced_input>
-sliced_input_of(identification_problem const& base, std::vector<effect> const& effects);
+sliced_input_of(identification_problem const& base, std::vector<effect> const& effects,
+                std::vector<experiment> const& beside = {});
 
 /// What is left of all parameters once a problem over their box leaves `found` of its unknowns;
 /// nothing where that is empty.

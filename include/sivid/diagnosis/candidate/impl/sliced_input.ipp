@@ -122,11 +122,21 @@ struct input_change {
     return problem;
 }
 
+/// The problem with further experiments.
+[[nodiscard]] inline identification_problem joined(identification_problem base,
+                                                   std::vector<experiment> const& beside) {
+    base.experiments.insert(base.experiments.end(), beside.begin(), beside.end());
+    return base;
+}
+
 /// Finds the parameters to be sliced.
 class sliced_input_finder {
 public:
-    sliced_input_finder(identification_problem const& base, std::vector<effect> const& effects)
-        : base_(&base), effects_(&effects), whole_(affected(base, effects)) {}
+    sliced_input_finder(identification_problem const& base, std::vector<effect> const& effects,
+                        std::vector<experiment> const& beside)
+        : base_(&base),
+          effects_(&effects),
+          whole_(affected(diagnosis_detail::joined(base, beside), effects)) {}
 
     [[nodiscard]] std::optional<sliced_input> operator()() {
         auto const& memory = whole_.model.input_memory;
@@ -195,6 +205,9 @@ private:
             auto const& e = (*effects_)[k];
             if (e.parameters.size() != 1 || full_name(e) != name || !only_remembers(k, m.constant))
                 continue;
+            auto const j = side_of(e);
+            if (j == whole_.prior.size() || !has_meaning(m.kind, whole_.prior[j]))
+                return std::nullopt;
             auto const linear = [&](experiment const& x) {
                 return std::get<sampled_signal>(x.inputs[m.index]).kind() == interpolation::linear;
             };
@@ -202,7 +215,7 @@ private:
             bool const line =
                 m.kind == memory_kind::rate_limit ||
                 (m.kind == memory_kind::delay && std::all_of(all.begin(), all.end(), linear));
-            return input_change{k, m.index, {side_of(e), line}, m};
+            return input_change{k, m.index, {j, line}, m};
         }
         return std::nullopt;
     }
@@ -214,12 +227,12 @@ private:
             if (m.index == input) return std::nullopt; // what it sees is changed before
         auto const j = side_of(e);
         bool const exact = j < whole_.prior.size() && whole_.prior[j].lower() >= 0;
-        if (!exact || !is_recorded(*base_, input) ||
+        if (!exact || !is_recorded(whole_, input) ||
             !finds_as_recorded(base_->model, *effects_, k, e.threshold->input))
             return std::nullopt;
         return input_change{k, input, {j, true}, std::nullopt};
     }
-    /// Channels that show the past, by one effect that does nothing else.
+    /// Channels that show the past, each once, by one effect that does nothing else.
     [[nodiscard]] bool find_late_sensor() {
         // A switch in time would have to be late, too.
         if (std::any_of(effects_->begin(), effects_->end(),
@@ -230,13 +243,14 @@ private:
         late_channels_.assign(model.about.channels.size(), false);
         for (auto const& d : model.channel_delays) {
             if (d.constant != constant || d.kind != memory_kind::delay) return false;
+            if (late_channels_[d.index]) return false; // it is late by twice as much
             late_channels_[d.index] = true;
         }
         auto const of_time = [&](node_id n) { return (model.g.depends(n) & on_time) != 0; };
         for (std::size_t y = 0; y < late_channels_.size(); ++y)
             if (late_channels_[y] && of_time(model.observe[y])) return false;
         for (std::size_t i = 0; i < base_->model.about.inputs.size(); ++i)
-            if (!is_recorded(*base_, i)) return false;
+            if (!is_recorded(whole_, i)) return false;
         for (std::size_t k = 0; k < effects_->size(); ++k) {
             auto const& e = (*effects_)[k];
             bool const only = e.parameters.size() == 1 && !e.on_rates && !e.on_inputs;
@@ -253,11 +267,14 @@ private:
 
     [[nodiscard]] std::optional<sliced_input> by_errors(signal_memory const& m) const {
         auto const j = index_of_parameter(whole_, whole_.model.about.constants[m.constant].name);
-        if (j == whole_.prior.size() || !is_recorded(whole_, m.index)) return std::nullopt;
-        return sliced_input{
-            {{j, false}},
-            [whole = whole_, m, j](box const& all) { return with_errors(whole, m, j, all); },
-            std::nullopt};
+        if (j == whole_.prior.size() || !has_meaning(m.kind, whole_.prior[j]) ||
+            !is_recorded(whole_, m.index))
+            return std::nullopt;
+        return sliced_input{{{j, false}},
+                            [whole = affected(*base_, *effects_), m, j](box const& all) {
+                                return with_errors(whole, m, j, all);
+                            },
+                            std::nullopt};
     }
     [[nodiscard]] sliced_input joined() const {
         sliced_input result;
@@ -320,7 +337,7 @@ private:
 
     identification_problem const* base_;
     std::vector<effect> const* effects_;
-    identification_problem whole_;
+    identification_problem whole_; ///< whose experiments decide the form
     std::vector<input_change> changes_;
     std::optional<std::size_t> late_; ///< the effect that is a late sensor
     std::size_t late_side_ = 0;
@@ -336,8 +353,9 @@ inline bool has_shifted(combination const& c, sliced_input const& sliced) {
 } // namespace diagnosis_detail
 
 SIVID_DECL std::optional<sliced_input> sliced_input_of(identification_problem const& base,
-                                                       std::vector<effect> const& effects) {
-    return diagnosis_detail::sliced_input_finder(base, effects)();
+                                                       std::vector<effect> const& effects,
+                                                       std::vector<experiment> const& beside) {
+    return diagnosis_detail::sliced_input_finder(base, effects, beside)();
 }
 
 SIVID_DECL std::optional<explained_hull>

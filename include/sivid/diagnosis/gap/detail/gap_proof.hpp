@@ -34,15 +34,6 @@ namespace sivid {
 inline void tighten(verified_inflation& known, screened const& s, inflation_options const& search) {
     auto proved = bound_inflation(s.problem, &s.fit, search);
     double upper = proved.value.upper();
-    if (proved.witness && starts_follow_parameters(s.problem)) {
-        // The search lets added states start anywhere in their ranges.
-        approximate_fit at;
-        at.parameters = proved.witness->parameters;
-        at.starts = proved.witness->starts;
-        auto verified = verify_at(s.problem, at, search.test);
-        upper = verified.range.upper();
-        proved.witness = std::move(verified.witness);
-    }
     if (upper <= known.range.upper()) known.witness = std::move(proved.witness);
     upper = std::min(upper, known.range.upper());
     if (known.hull.size() == 0 && upper <= proved.value.upper()) known.hull = proved.hull;

@@ -48,13 +48,6 @@ inline void measure_tube(identification_problem const& judged,
 
 } // namespace diagnosis_detail
 
-/// A candidate's problems over a box of its parameters, on the data that it was fitted to and on
-/// held-out ones (`sliced_input_of`).
-struct fitted_set {
-    identification_problem fit, judged;
-    std::vector<combination_hull> products; ///< of its unknowns
-};
-
 /// Judges a fitted candidate by hold-out experiments. Their own starts, nuisances, are fitted;
 /// nothing else is.
 /// @param bound   what was proved about the candidate's fit

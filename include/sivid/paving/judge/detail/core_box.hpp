@@ -146,17 +146,16 @@ private:
     std::optional<box> best_;
 };
 
-/// A box about a point all of whose parameters explain the data: the largest that is found from
-/// responses over regions about the point, each half as wide as the one before, which are
-/// integrated together. It is for problems with so many unknowns that bisection meets no such box:
-/// that takes \f$ 2^{h_1 + ... + h_n} \f$ boxes where side i has to be halved h_i times.
+/// A box about a point all of whose parameters explain the data from the starts of the test: the
+/// largest that is found from responses over regions about the point, each half as wide as the one
+/// before, which are integrated together. It is for problems with so many unknowns that bisection
+/// meets no such box: that takes \f$ 2^{h_1 + ... + h_n} \f$ boxes where side i has to be halved
+/// h_i times.
 /// @param around  the first region: what is left of the prior, with the point in it
-/// @param starts  by experiment, from which the point explains the data
 /// @returns  nothing when none was found, or the test was told to stop before
 /// @cost  eight integrations of each experiment, and some hundred re-expansions of each response
 [[nodiscard]] inline std::optional<box> core_about(data_test& test, box const& around,
-                                                   std::vector<double> const& point,
-                                                   std::vector<box> const& starts) {
+                                                   std::vector<double> const& point) {
     using traits = interval_traits<interval>;
     std::vector<box> regions;
     double share = 0.5;
@@ -169,8 +168,8 @@ private:
         }
     }
     std::vector<response_list> known(regions.size());
-    for (std::size_t e = 0; e < starts.size(); ++e) {
-        auto const answers = test.run(e, starts[e], regions);
+    for (std::size_t e = 0; e < test.starts().size(); ++e) {
+        auto const answers = test.run(e, test.starts()[e], regions);
         for (std::size_t k = 0; k < regions.size(); ++k) known[k].push_back(answers[k]);
     }
     std::optional<core_search> best;

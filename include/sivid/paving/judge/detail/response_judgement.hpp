@@ -23,17 +23,22 @@ struct response_judgement {
     exclusion_proof proof = {}; ///< of the contraction, or that nothing is left
 };
 
+struct judgement_options {
+    bool contract = true;  ///< the part; and look for starts that depend on the parameters
+    bool cut = true;       ///< contract by linear programs over all measurements, too
+    bool any_start = true; ///< a parameter may have any start: else none is looked for
+};
+
 /// Decides and contracts a part by responses alone; nothing is integrated.
-/// @param all       by experiment, for all starts
-/// @param chosen    the same for starts from which existence is proved; may be those of `all`
-/// @param contract  contract the part, and look for starts that depend on the parameters
-/// @param cut       contract by linear programs over all measurements, too
+/// @param all     by experiment, for all starts
+/// @param chosen  the same for starts from which existence is proved; may be those of `all`
 /// @guarantee  outside: no parameter of the part is feasible for any starts; inside: all are, for
 ///             the chosen starts or for others that depend on the parameter; `rest` keeps every
 ///             feasible parameter
 [[nodiscard]] SIVID_DECL response_judgement judge_by_responses(response_list const& all,
                                                                response_list const& chosen,
-                                                               box part, bool contract, bool cut);
+                                                               box part,
+                                                               judgement_options const& options);
 
 } // namespace sivid
 

@@ -21,7 +21,7 @@ namespace sivid {
 
 SIVID_DECL response_judgement judge_by_responses(response_list const& all,
                                                  response_list const& chosen, box part,
-                                                 bool contract, bool cut) {
+                                                 judgement_options const& options) {
     response_judgement result{.rest = std::move(part)};
     auto& rest = result.rest;
     std::vector<std::size_t> open; // experiments that are not explained so far
@@ -46,17 +46,19 @@ SIVID_DECL response_judgement judge_by_responses(response_list const& all,
                 result.share = std::numeric_limits<double>::infinity();
             }
         }
-        if (contract) {
+        if (options.contract) {
             add_cuts(result.proof, rest, narrowed);
             rest = std::move(narrowed);
         }
         for (std::size_t j = 0; j < rest.size(); ++j) result.smear[j] += says.smear[j];
     }
     bool const inside = std::all_of(open.begin(), open.end(), [&](std::size_t e) {
-        return contract && explaining_starts(*all[e], rest)().has_value();
+        return options.contract && options.any_start &&
+               explaining_starts(*all[e], rest)().has_value();
     });
     result.verdict = inside ? box_verdict::inside : box_verdict::undecided;
-    if (!inside && contract && cut && !cut_contraction()(all, rest, &result.proof)) {
+    if (!inside && options.contract && options.cut &&
+        !cut_contraction()(all, rest, &result.proof)) {
         result.verdict = box_verdict::outside;
         result.share = 0;
     }

@@ -117,8 +117,8 @@ public:
 
     /// Decides and contracts a part of a region; see `judge_by_responses`.
     [[nodiscard]] response_judgement judge(online_region const& r, box const& part) const {
-        return judge_by_responses(r.responses(false), r.responses(true), part, options_.contract,
-                                  options_.cut);
+        return judge_by_responses(r.responses(false), r.responses(true), part,
+                                  {options_.contract, options_.cut});
     }
     /// Whether trajectories over the part alone would say more.
     [[nodiscard]] bool blind(response_judgement const& j) const {
