@@ -205,9 +205,9 @@ TEST_CASE("a channel of the model that has the name of a rate does not stand for
     model.about.channels.push_back({"u0", "1"});
     model.observe.push_back(model.g.constant(0.0));
     loop just("u0 = 3 * (1 - measured(y0))", 8, model); // 9 at the begin
-    CHECK(just.answer("x0 < 2") != sivid::requirement_answer::proved);
+    CHECK(just.verified("x0 < 2").answer != sivid::requirement_answer::proved);
     loop kept("u0 = 3 * (1 - measured(y0))", 12, model);
-    CHECK(kept.answer("x0 < 2") == sivid::requirement_answer::proved);
+    CHECK(kept.verified("x0 < 2").answer == sivid::requirement_answer::proved);
     auto const& channels = kept.closed.model.about.channels;
     REQUIRE(channels.size() == 5);
     CHECK(channels[3].name == "u0.command");

@@ -55,9 +55,10 @@ namespace sivid {
     auto resolved = resolve_memory(at, p);
     if (resolved.problem.prior.size() == 0) {
         // An identification needs an unknown: any constant that is fixed stands in for it.
-        auto const& [name, value] = *resolved.problem.choice.fixed.begin();
-        resolved.problem.prior = box{value};
-        resolved.problem.choice.unknown.push_back(name);
+        auto& fixed = resolved.problem.choice.fixed;
+        resolved.problem.prior = box{fixed.begin()->second};
+        resolved.problem.choice.unknown.push_back(fixed.begin()->first);
+        fixed.erase(fixed.begin());
     }
     auto const everything = box_explorer::without_limit(resolved.problem);
     data_test runs(everything, options);
