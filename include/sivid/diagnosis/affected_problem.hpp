@@ -41,10 +41,9 @@ namespace sivid {
 /// switched on in these.
 ///   A parameter that is feasible for `base` is feasible here with all effects neutral.
 /// @throws std::invalid_argument  as `with`, where an experiment lacks an input or a state, and
-/// where
-///         nobody can tell how often readings had wrapped (`effect::wraps`): `wraps_before`, for
-///         all T of the prior about which they leap, or for a full turn of the channel's unit where
-///         that is one of them, and `wraps_of`
+///         where nobody can tell how often readings had wrapped (`effect::wraps`): `wraps_before`,
+///         for all T of the prior about which they leap, or for a full turn of the channel's unit
+///         where that is one of them, and `wraps_of`
 [[nodiscard]] SIVID_DECL identification_problem affected(identification_problem const& base,
                                                          std::vector<effect> const& effects);
 

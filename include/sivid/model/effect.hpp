@@ -229,8 +229,7 @@ SIVID_DECL void require_distinct(model_description const& about,
 ///   rate limits do not act (`acts_in`); states of its own go on, and nothing sees them. One that
 ///   begins or ends within an experiment has its delay, play or rate limit on a copy of the input,
 ///   which the model sees while it acts.
-/// @throws std::invalid_argument  when an effect names what the model lacks, or changes the size of
-/// a
+/// @throws std::invalid_argument  when an effect names what the model lacks, or changes a size of a
 ///         delay, play or rate limit; as `require_distinct`; and when the model has a copy of an
 ///         input, for an effect that was joined before, and an effect names that input but not the
 ///         copy
