@@ -173,9 +173,13 @@ TEST_CASE("the prior of the parameters is no data: nothing grows, drops or count
         CHECK_THROWS_WITH(ask(posed), ContainsSubstring("'prior of the parameters'") &&
                                           ContainsSubstring("original"));
     };
-    refuses([](auto const& p) { return bound_inflation(p, nullptr, {.seconds = 0.1}); });
+    inflation_options brief;
+    brief.seconds = 0.1;
+    outlier_search_options few;
+    few.seconds = 0.1;
+    refuses([&](auto const& p) { return bound_inflation(p, nullptr, brief); });
     CHECK_THROWS_WITH(holdout_inflation(posed, {}, posed), ContainsSubstring("original"));
-    refuses([](auto const& p) { return smallest_outlier_budget(p, {.seconds = 0.1}); });
+    refuses([&](auto const& p) { return smallest_outlier_budget(p, few); });
     refuses([](auto const& p) { return identifiability_of(p, point_box(mid(p.prior))); });
     // What is left where data are dropped still knows the prior.
     auto const none = restricted_to(posed, [](std::size_t, measurement const&) { return false; });

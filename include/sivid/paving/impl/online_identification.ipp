@@ -81,6 +81,7 @@ public:
         return last_ = take(std::move(by_experiment));
     }
     online_update const& refine() {
+        if (cut_short_) fitted_at_ = 0;
         return last_ = take(std::vector<record>(problem_.experiments.size()));
     }
 
@@ -93,7 +94,8 @@ public:
         result.assumptions.push_back(input_assumption(problem_.experiments));
         auto const& run = options_.test.run.enclosure;
         result.reason = paving_->reason();
-        if (result.reason != stop_reason::decided && (fit_is_due() || from_other_starts_))
+        bool const fit_lacks = judged_verdict() == verdict::undecided && (put_off_ || cut_short_);
+        if (result.reason != stop_reason::decided && (fit_lacks || from_other_starts_))
             result.reason = stop_reason::time_budget;
         if (result.reason == stop_reason::time_budget && run.cancelled())
             result.reason = stop_reason::cancelled;
@@ -145,6 +147,7 @@ private:
 
     online_update take(std::vector<record> samples) {
         auto const begin = clock::now();
+        work_limit const limit(options_.refinement.seconds, options_.test.run.enclosure.keep_going);
         online_update now;
         auto const judged = paving_->judged();
         auto const runs = paving_->test().integrations();
@@ -154,7 +157,6 @@ private:
             samples_ += samples[e].size();
         }
         for (std::size_t e = 0; e < samples.size(); ++e) witness_->add(e, samples[e]);
-        work_limit const limit(options_.refinement.seconds, options_.test.run.enclosure.keep_going);
         if (put_off_) look_for_witness(limit);
         paving_->update(samples, options_.refinement, limit);
         look_for_witness(limit);
@@ -180,12 +182,14 @@ private:
         return samples_ > 0 && 10 * samples_ >= 11 * fitted_at_ &&
                judged_verdict() == verdict::undecided;
     }
-    /// A fit for which an update leaves no time comes first in the next.
+    /// A fit for which an update leaves no time comes first in the next; one that was cut short is
+    /// gone on with in idle time, or when it is due again.
     void look_for_witness(work_limit const& limit) {
         put_off_ = fit_is_due() && !limit();
         if (put_off_ || !fit_is_due()) return;
         witness_->find(limit);
-        if (limit()) fitted_at_ = samples_;
+        fitted_at_ = samples_;
+        cut_short_ = !limit();
         if (auto const w = witness_->get()) start_from(*w);
     }
     /// Existence is proved from the starts of the witness from now on.
@@ -269,8 +273,8 @@ private:
     std::optional<online_witness> witness_;
     online_update last_;
     std::size_t samples_ = 0, fitted_at_ = 0;
-    bool put_off_ = false;           ///< a fit
-    bool from_other_starts_ = false; ///< are the regions to be followed
+    bool put_off_ = false, cut_short_ = false; ///< the last fit
+    bool from_other_starts_ = false;           ///< are the regions to be followed
     double spent_ = 0;
 };
 
