@@ -487,7 +487,7 @@ TEST_CASE("what is reached is not said of products that no parameter reaches") {
     auto const p =
         sivid::predict_from(problem, stored.read(), model, {goal.value}, request, "result.json");
     REQUIRE(p->in_products);
-    REQUIRE(p->problem.reached);
+    REQUIRE(p->problem.reached.has_value());
     CHECK(sivid::predict(p->problem).excess > 1e300);
     // (1, 1, 1.2) and (1.2, 1, 1) explain the same data where errors are 0.11: nothing is told.
     auto const promised = sivid::promise_widths(
