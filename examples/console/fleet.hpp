@@ -84,7 +84,7 @@ inline std::string digest_of(std::vector<fleet_task> const& list) {
 inline int run_fleet(fleet_command const& c) {
     namespace cluster = sivid::cluster;
     auto const list = fleet_tasks(c.folders, c.out, c.command, c.options);
-    bool const several = c.all != nullptr && c.all->several();
+    [[maybe_unused]] bool const several = c.all != nullptr && c.all->several(); // ranks
     if (c.all != nullptr) c.all->watch_interrupts();
     auto const digest = detail::digest_of(list);
     auto const who = cluster::identity_of_program();

@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
+#include "support/products.hpp"
 #include "support/random.hpp"
 #include "support/sweep.hpp"
 
@@ -209,37 +210,14 @@ TEST_CASE("groups may be chosen, and those without measurements are left out") {
     check_against_grid(p, found);
 }
 
-namespace {
-
-/// y0 = p0 p1 and y1 = p1 p2 with p in [1, 2]^3, each measured once: the products share a factor.
-sivid::identification_problem shared_factor(sivid::interval const& first,
-                                            sivid::interval const& second) {
-    sivid::identification_problem p;
-    p.model = support::model_of(
-        {.states = 1, .constants = 3},
-        [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{0 * x[0]}; },
-        [](auto const&, auto const& x, auto const& c, auto const&) {
-            return std::vector{c[0] * c[1] * x[0], c[1] * c[2] * x[0]};
-        });
-    p.choice.unknown = support::all_constants(3);
-    p.prior = {between(1, 2), between(1, 2), between(1, 2)};
-    sivid::experiment run;
-    run.name = "run";
-    run.initial = {sivid::interval(1.0)};
-    run.measurements = {{1, 0, first}, {1, 1, second}};
-    p.experiments = {run};
-    return p;
-}
-
-} // namespace
-
 TEST_CASE("growth is that of what parameters reach where products share a factor") {
     // The share of the parameters that p0 p1 >= 3.8 leaves.
     double share = 0;
     constexpr int n = 100'000;
     for (int k = 0; k < n; ++k) share += std::max(0.0, 2 - 3.8 / (1 + (k + 0.5) / n)) / n;
-    auto const narrow = sivid::rank_measurements(shared_factor(between(3.8, 4), between(0.5, 5)),
-                                                 patient, {{.experiment = {}, .channel = 0}});
+    auto const narrow = sivid::rank_measurements(
+        support::with_shared_factor(between(1, 2), between(3.8, 4), between(0.5, 5)), patient,
+        {{.experiment = {}, .channel = 0}});
     CHECK(narrow.coordinates == support::all_constants(3));
     REQUIRE(narrow.groups.size() == 1);
     CHECK(narrow.groups[0].growth.lower() <= 1 / share);
@@ -248,15 +226,16 @@ TEST_CASE("growth is that of what parameters reach where products share a factor
     CHECK(narrow.volume.upper() >= share);
 
     // Where p0 p1 >= 3.5, p1 p2 >= 1.75: what y1 excludes no parameter reaches.
-    auto const implied = sivid::rank_measurements(shared_factor(between(3.5, 4), between(1.7, 4)),
-                                                  patient, {{.experiment = {}, .channel = 1}});
+    auto const implied = sivid::rank_measurements(
+        support::with_shared_factor(between(1, 2), between(3.5, 4), between(1.7, 4)), patient,
+        {{.experiment = {}, .channel = 1}});
     REQUIRE(implied.groups.size() == 1);
     CHECK(implied.groups[0].growth.lower() == 1);
     CHECK(implied.groups[0].growth.upper() < 1.01);
 
     // Products that both measurements allow, and no parameter reaches.
-    auto const none =
-        sivid::rank_measurements(shared_factor(between(3.9, 4), between(0.5, 1.5)), patient);
+    auto const none = sivid::rank_measurements(
+        support::with_shared_factor(between(1, 2), between(3.9, 4), between(0.5, 1.5)), patient);
     CHECK(none.explained == sivid::verdict::inconsistent);
     CHECK(none.groups.empty());
 }

@@ -110,8 +110,10 @@ TEST_CASE("effects have names of their own") {
     auto two = effects::linear_damping("gust", "v", {0_dec, 1_dec});
     one.only_in = {"E1"};
     two.only_in = {"E2"};
-    CHECK_THROWS_WITH(affected(base, {one, two}), ContainsSubstring("'gust' stands twice"));
-    CHECK_THROWS_WITH(diagnose(base, {one, two}), ContainsSubstring("'gust' stands twice"));
+    CHECK_THROWS_WITH(affected(base, {one, two}),
+                      ContainsSubstring("two effects are called 'gust'"));
+    CHECK_THROWS_WITH(diagnose(base, {one, two}),
+                      ContainsSubstring("two effects are called 'gust'"));
     one.name = "u"; // its switch would be the input
     CHECK_THROWS_WITH(affected(base, {one}), ContainsSubstring("two inputs are called 'u'"));
     CHECK_THROWS_WITH(diagnose(base, {one}), ContainsSubstring("two inputs are called 'u'"));

@@ -15,4 +15,7 @@ TEST_CASE("equal problems have equal texts, others have others") {
     auto other = plain_problem::make(1, 1);
     other.prior[0] = sivid::interval(0.25, 1.0000000000000002);
     CHECK(problem_text(other) != text);
+    other = plain_problem::make(1, 0);
+    other.experiments[0].constraint = true;
+    CHECK(problem_text(other) != problem_text(plain_problem::make(1, 0)));
 }

@@ -30,6 +30,25 @@ inline sivid::reduction reduction_of_products() {
     problem.experiments = {e};
     return sivid::reduction::find(problem, sivid::dependence_of(problem)).value();
 }
+/// y0 = p0 p1 and y1 = p1 p2 with all p in a range, each measured once: the products share p1.
+inline sivid::identification_problem
+with_shared_factor(interval const& range, interval const& first, interval const& second) {
+    sivid::identification_problem problem;
+    problem.model = model_of(
+        {1, 3},
+        [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{0 * x[0]}; },
+        [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] * p[1] * x[0], p[1] * p[2] * x[0]};
+        });
+    problem.choice.unknown = all_constants(3);
+    problem.prior = {range, range, range};
+    sivid::experiment e;
+    e.name = "run";
+    e.initial = box{interval(1.0)};
+    e.measurements = {{1, 0, first}, {1, 1, second}};
+    problem.experiments = {e};
+    return problem;
+}
 /// Bisections at random, verdicts at random.
 inline sivid::subpaving random_paving(draws& d, box const& prior) {
     sivid::subpaving paving(prior);

@@ -4,6 +4,7 @@
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
 #include "support/models.hpp"
+#include "support/products.hpp"
 
 #include <sivid/decision/experiment_design.hpp>
 #include <sivid/decision/prediction.hpp>
@@ -452,32 +453,10 @@ TEST_CASE("what a set constant does to a derived one is said") {
     for (auto const& line : p->assumptions) CHECK(line.back() != '.');
 }
 
-namespace {
-
-/// y0 = p0 p1 and y1 = p1 p2, each measured once, roughly: the products share p1.
-sivid::identification_problem shared_factor() {
-    using support::between;
-    sivid::identification_problem p;
-    p.model = support::model_of(
-        {.states = 1, .constants = 3},
-        [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{0 * x[0]}; },
-        [](auto const&, auto const& x, auto const& c, auto const&) {
-            return std::vector{c[0] * c[1] * x[0], c[1] * c[2] * x[0]};
-        });
-    p.choice.unknown = support::all_constants(3);
-    p.prior = {between(1, 1.2), between(1, 1.2), between(1, 1.2)};
-    sivid::experiment run;
-    run.name = "run";
-    run.initial = {sivid::interval(1.0)};
-    run.measurements = {{1, 0, between(0.5, 5)}, {1, 1, between(0.5, 5)}};
-    p.experiments = {run};
-    return p;
-}
-
-} // namespace
-
 TEST_CASE("what is reached is not said of products that no parameter reaches") {
-    auto const problem = shared_factor();
+    using support::between;
+    auto const problem =
+        support::with_shared_factor(between(1, 1.2), between(0.5, 5), between(0.5, 5));
     stored_result const stored(problem, sivid::identify(problem, {}));
     sivid::prediction_request request;
     request.initial = {sivid::interval(1.0)};

@@ -15,6 +15,7 @@
 #include <concepts>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -298,8 +299,18 @@ struct recorded_model {
 };
 
 namespace model_detail {
-/// What is known by its name has it alone, among the states, inputs, channels or constants.
-/// @throws std::invalid_argument  naming the two that have one
+/// What is known by its name has it alone.
+/// @throws std::invalid_argument  naming two that have one
+template <class Items, class Name>
+void require_own_names(std::string const& whose, std::string const& what, Items const& items,
+                       Name const& name_of) {
+    std::set<std::string> names;
+    for (auto const& i : items)
+        if (!names.insert(name_of(i)).second)
+            throw std::invalid_argument(whose + ": two " + what + " are called '" +
+                                        std::string(name_of(i)) + "'; give each a name of its own");
+}
+/// The same among the states, among the inputs, the channels and the constants.
 SIVID_DECL void require_own_names(model_description const& about);
 /// What a functor says of itself, as data.
 /// @throws std::invalid_argument as `require_own_names`

@@ -50,6 +50,33 @@ struct experiment {
                : "inputs within their stated errors, exact where none is stated";
 }
 
+namespace model_detail {
+
+/// What a choice of unknowns and their prior have to be, with states or without.
+/// @param fail  (text), throws
+template <class Fail>
+void require_prior(parameter_choice const& choice, box const& prior, Fail const& fail) {
+    if (choice.unknown.empty()) fail("no unknown parameter");
+    if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
+    for (auto const& name : choice.unknown)
+        if (choice.fixed.count(name) != 0)
+            fail("'" + name + "' is unknown and has a fixed value; leave one of them out");
+    if (is_empty(prior)) fail("the prior is empty");
+    for (auto const& side : prior)
+        if (!std::isfinite(mag(side)) || !std::isfinite(width(side)))
+            fail("the prior must be bounded");
+}
+/// The same of a measurement.
+template <class Fail>
+void require_reading(measurement const& m, recorded_model const& model, Fail const& fail) {
+    if (m.channel >= model.about.channels.size()) fail("unknown channel");
+    if (!std::isfinite(m.time)) fail("a measurement at no finite time");
+    if (is_empty(m.bound) || !std::isfinite(mig(m.bound))) // beyond all doubles
+        fail("an empty measurement");
+}
+
+} // namespace model_detail
+
 /// Which parameters in `prior` can explain all experiments?
 ///   p is feasible when for every experiment there are an initial state in its box and inputs
 ///   within their error bounds for which at most `outliers` of its measurements are violated.
@@ -74,17 +101,11 @@ struct identification_problem {
     /// @throws std::invalid_argument  as `require_data`, and where two have one name
     void require_valid_campaign() const {
         require_data();
-        auto const require_own_names = [](std::string const& what, auto const& all, auto name_of) {
-            for (std::size_t s = 0; s < all.size(); ++s)
-                for (std::size_t k = 0; k < s; ++k)
-                    if (name_of(all[k]) == name_of(all[s]))
-                        throw std::invalid_argument("identification problem: two " + what +
-                                                    " are called '" + name_of(all[s]) +
-                                                    "'; give each a name of its own");
-        };
-        require_own_names("experiments", experiments, [](auto const& e) { return e.name; });
-        require_own_names("equations", model.about.states,
-                          [](auto const& s) { return s.equation_name(); });
+        auto const whose = std::string("identification problem");
+        model_detail::require_own_names(whose, "experiments", experiments,
+                                        [](auto const& e) { return e.name; });
+        model_detail::require_own_names(whose, "equations", model.about.states,
+                                        [](auto const& s) { return s.equation_name(); });
     }
     /// @throws std::invalid_argument  where an experiment has not one signal for each input and one
     ///         initial range for each state
@@ -107,24 +128,15 @@ struct identification_problem {
         auto const fail = [](std::string const& what) {
             throw std::invalid_argument("identification problem: " + what);
         };
-        if (choice.unknown.empty()) fail("no unknown parameter");
+        model_detail::require_prior(choice, prior, fail);
         require_own_memory(model, choice);
-        if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
-        for (auto const& name : choice.unknown)
-            if (choice.fixed.count(name) != 0)
-                fail("'" + name + "' is unknown and has a fixed value; leave one of them out");
-        auto const bounded = [](box const& x) {
-            return std::all_of(x.begin(), x.end(),
-                               [](interval const& side) { return std::isfinite(mag(side)); });
-        };
-        if (is_empty(prior)) fail("the prior is empty");
-        if (!bounded(prior)) fail("the prior must be bounded");
         if (experiments.empty()) fail("no experiment");
         require_all_inputs_and_states();
         for (auto const& s : experiments) {
             auto const where = "experiment '" + s.name + "': ";
             if (is_empty(s.initial)) fail(where + "the initial box is empty");
-            if (!bounded(s.initial)) fail(where + "the initial box must be bounded");
+            for (auto const& side : s.initial)
+                if (!std::isfinite(mag(side))) fail(where + "the initial box must be bounded");
             if (!std::isfinite(s.begin)) fail(where + "it begins at no finite time");
             if (s.measurements.empty()) fail(where + "no measurement");
             if (s.outliers > s.measurements.size()) {
@@ -132,12 +144,9 @@ struct identification_problem {
             }
             if (s.constraint && s.outliers > 0) fail(where + "a condition allows no outliers");
             for (auto const& m : s.measurements) {
-                if (m.channel >= model.about.channels.size()) fail(where + "unknown channel");
-                if (!(m.time >= s.begin) || !std::isfinite(m.time)) {
-                    fail(where + "a measurement before the begin, or at no finite time");
-                }
-                if (is_empty(m.bound) || !std::isfinite(mig(m.bound))) // beyond all doubles
-                    fail(where + "an empty measurement");
+                model_detail::require_reading(m, model,
+                                              [&](std::string const& what) { fail(where + what); });
+                if (!(m.time >= s.begin)) fail(where + "a measurement before the begin");
             }
         }
     }

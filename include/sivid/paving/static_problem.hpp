@@ -5,6 +5,7 @@
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -75,24 +76,9 @@ struct static_problem {
         if (!model.about.states.empty() || !model.about.inputs.empty()) {
             fail("the model has states or inputs");
         }
-        if (choice.unknown.empty()) fail("no unknown parameter");
-        if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
-        for (auto const& name : choice.unknown)
-            if (choice.fixed.count(name) != 0)
-                fail("'" + name + "' is unknown and has a fixed value; leave one of them out");
-        if (is_empty(prior)) fail("the prior is empty");
-        for (auto const& side : prior) {
-            if (!std::isfinite(mag(side)) || !std::isfinite(width(side))) {
-                fail("the prior must be bounded");
-            }
-        }
+        model_detail::require_prior(choice, prior, fail);
         if (measurements.empty()) fail("no measurement");
-        for (auto const& m : measurements) {
-            if (m.channel >= model.about.channels.size()) fail("unknown channel");
-            if (!std::isfinite(m.time)) fail("a measurement at no finite time");
-            if (is_empty(m.bound) || !std::isfinite(mig(m.bound))) // beyond all doubles
-                fail("an empty measurement");
-        }
+        for (auto const& m : measurements) model_detail::require_reading(m, model, fail);
     }
 };
 

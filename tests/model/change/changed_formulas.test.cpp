@@ -58,6 +58,11 @@ TEST_CASE("an input and a constant of one name are told apart") {
           lines{"u becomes u * (k_1 + 1)"});
 }
 
+TEST_CASE("an effect may have the name of what reads the changes") {
+    CHECK(changed({effects::input_gain("seen", "u", {-1_dec, 1_dec})}) ==
+          lines{"u becomes u * (k_1 + 1)"});
+}
+
 TEST_CASE("what is remembered is said in words") {
     CHECK(changed({effects::input_delay("late", "u", {0_dec, 1_dec})}) ==
           lines{"u becomes u at the time t - tau"});

@@ -7,6 +7,7 @@
 #include "support/random.hpp"
 
 #include <cmath>
+#include <vector>
 
 using namespace sivid;
 using support::between;
@@ -27,4 +28,12 @@ TEST_CASE("ranges of combinations enclose their values") {
     // A divisor that may be zero bounds nothing.
     combination const inverse{{-1}, "", ""};
     CHECK(width(inverse.over(box{between(-1, 1)})) == HUGE_VAL);
+}
+
+TEST_CASE("a parameter uses the products and sums in which it stands") {
+    std::vector<combination> const all{
+        {{1, 0, -2}, "", ""}, {{0, 0, 1}, "", ""}, {{0, 0, 0}, "", "", {1, 0, -1}}};
+    CHECK(users_of(all, 0) == 2);
+    CHECK(users_of(all, 1) == 0);
+    CHECK(users_of(all, 2) == 3);
 }

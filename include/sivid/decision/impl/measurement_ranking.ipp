@@ -92,7 +92,6 @@ SIVID_DECL measurement_ranking rank_measurements(identification_problem const& p
                                                  std::vector<measurement_group> groups) {
     auto const begin = std::chrono::steady_clock::now();
     problem.require_valid_campaign();
-    problem.require_data();
     work_limit const limit(options.seconds, options.keep_going);
     if (groups.empty()) groups = decision_detail::usual_groups(problem, options.times);
 

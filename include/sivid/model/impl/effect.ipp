@@ -3,6 +3,7 @@
 #define SIVID_MODEL_IMPL_EFFECT_IPP
 
 #include <sivid/model/change/copy_equations.hpp>
+#include <sivid/model/change/detail/seen_effect.hpp>
 #include <sivid/model/effect.hpp>
 
 #include <algorithm>
@@ -45,26 +46,15 @@ SIVID_DECL bool finds_as_recorded(recorded_model const& base, std::vector<effect
             before.push_back(other);
         }
     }
-    // States whose rates are the input as it stands after them, and all that may depend on it.
-    effect seen;
-    seen.name = effects[which].name; // which is not among them
-    seen.order = effects[which].order;
-    seen.on_inputs = [&](effect_scope& m) {
-        auto const show = [&m](std::string const& what, expression const& value) {
-            (void)m.add_state("seen " + what, "1", 1, expression(0));
-            m.rate("seen " + what) = value;
-        };
-        for (auto const& u : base.about.inputs) show("input " + u.name, m.input(u.name));
-        for (auto const& c : base.about.constants) show("constant " + c.name, m.constant(c.name));
-    };
-    before.push_back(seen);
+    before.push_back(seen_effect(base.about, before, effects[which].order));
     auto const changed = with(base, before);
     auto const k = index_of(base.about.inputs, input, "input");
     auto const& g = changed.g;
     auto const is_it = [&](node_id i) {
         return g[i].op == operation::input && static_cast<std::size_t>(g[i].index) == k;
     };
-    auto const first = changed.rate.size() - base.about.inputs.size() - base.about.constants.size();
+    auto const first = // of what is seen: inputs, constants, the time
+        changed.rate.size() - base.about.inputs.size() - base.about.constants.size() - 1;
     if (!is_it(changed.rate[first + k])) return false;
     std::vector<node_id> others; // added states of effects, too
     for (auto i = base.rate.size(); i < changed.rate.size(); ++i)
@@ -100,11 +90,8 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     for (auto const& e : effects) {
         first.push_back(constants.size());
         for (auto const& p : e.parameters) {
-            auto const name = e.name + "." + p.name;
-            for (auto const& c : constants)
-                if (c.name == name)
-                    throw std::invalid_argument("effect '" + e.name + "' stands twice");
-            constants.push_back({name, p.unit, literal{enclose(p.neutral), nearest(p.neutral)}});
+            constants.push_back(
+                {e.name + "." + p.name, p.unit, literal{enclose(p.neutral), nearest(p.neutral)}});
         }
         if (!e.only_in.empty()) result.about.inputs.push_back({e.name, "1"});
         if (e.wraps) result.about.inputs.push_back({e.name + ".wraps", "1"});

@@ -61,13 +61,10 @@ SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
 
 SIVID_DECL void require_distinct(model_description const& about,
                                  std::vector<effect> const& effects) {
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-        auto const& e = effects[k];
+    model_detail::require_own_names("model '" + about.name + "'", "effects", effects,
+                                    [](effect const& e) { return e.name; });
+    for (auto const& e : effects) {
         detail::require_one_episode(e);
-        for (std::size_t i = 0; i < k; ++i)
-            if (effects[i].name == e.name)
-                throw std::invalid_argument("effect '" + e.name +
-                                            "' stands twice; give each a name of its own");
         for (auto const& u : about.inputs)
             for (auto const& own : {e.name, e.name + ".wraps"})
                 if (u.name == own)

@@ -4,7 +4,6 @@
 
 #include <sivid/model/model.hpp>
 
-#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -18,18 +17,12 @@ SIVID_DECL model_description& model_description::operator=(model_description&&) 
 SIVID_DECL model_description::~model_description() = default;
 
 SIVID_DECL void model_detail::require_own_names(model_description const& about) {
-    auto const check = [&about](auto const& items, std::string const& kind) {
-        std::set<std::string> names;
-        for (auto const& i : items)
-            if (!names.insert(i.name).second)
-                throw std::invalid_argument("model '" + about.name + "': two " + kind +
-                                            " are called '" + i.name +
-                                            "'; give each a name of its own");
-    };
-    check(about.states, "states");
-    check(about.inputs, "inputs");
-    check(about.channels, "channels");
-    check(about.constants, "constants");
+    auto const whose = "model '" + about.name + "'";
+    auto const name_of = [](auto const& item) { return item.name; };
+    require_own_names(whose, "states", about.states, name_of);
+    require_own_names(whose, "inputs", about.inputs, name_of);
+    require_own_names(whose, "channels", about.channels, name_of);
+    require_own_names(whose, "constants", about.constants, name_of);
 }
 
 SIVID_DECL model_description model_detail::described(std::string_view name,

@@ -5,6 +5,7 @@
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <string>
@@ -56,6 +57,12 @@ struct combination {
         return undefined ? traits::entire() : value;
     }
 };
+
+/// In how many of these a parameter is a factor or a term.
+[[nodiscard]] inline std::size_t users_of(std::vector<combination> const& all, std::size_t j) {
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [j](combination const& c) { return c.has(j); }));
+}
 
 /// A combination of parameters with what the data allow it.
 struct combination_hull {

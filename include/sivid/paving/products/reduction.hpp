@@ -59,11 +59,8 @@ public:
             std::optional<std::size_t> pivot;
             for (std::size_t j = 0; j < c.exponents.size(); ++j) {
                 if (c.exponents[j] != 0 && !is_entangled(j)) return std::nullopt;
-                if (pivot) continue;
-                auto const users = std::count_if(
-                    structure.combinations.begin(), structure.combinations.end(),
-                    [j](combination const& other) { return other.exponents[j] != 0; });
-                if (c.exponents[j] == 1 && users == 1) pivot = j;
+                if (!pivot && c.exponents[j] == 1 && users_of(structure.combinations, j) == 1)
+                    pivot = j;
             }
             if (!pivot) return std::nullopt;
             spared[*pivot] = false;

@@ -97,10 +97,8 @@ inline std::optional<std::vector<int>> scaling_of(std::size_t j, dependence_stru
     for (auto const& c : all.combinations) {
         if (c.exponents[j] == 0) continue;
         for (std::size_t k = 0; k < powers.size(); ++k) {
-            auto const users =
-                std::count_if(all.combinations.begin(), all.combinations.end(),
-                              [k](combination const& other) { return other.exponents[k] != 0; });
-            if (k == j || users != 1 || std::abs(c.exponents[k]) != 1) continue;
+            if (k == j || std::abs(c.exponents[k]) != 1 || users_of(all.combinations, k) != 1)
+                continue;
             powers[k] = -c.exponents[j] * c.exponents[k];
             break;
         }

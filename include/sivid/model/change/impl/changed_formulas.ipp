@@ -5,6 +5,7 @@
 #include <sivid/model/change/changed_formulas.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/change/detail/seen_effect.hpp>
 #include <sivid/model/graph/detail/formula_text.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/text/nearest_text.hpp>
@@ -56,22 +57,8 @@ public:
         : base_(&base), to_(&to) {
         auto first = effects;
         for (auto& e : first) e.on_rates = e.on_channels = {};
-        // States whose rates are inputs and constants as the model sees them.
-        effect seen;
-        seen.name = "seen";
-        seen.order = std::numeric_limits<int>::max();
-        auto const& about = base.about;
-        seen.on_inputs = [&about](effect_scope& m) {
-            auto const show = [&m](std::string const& what, expression const& value) {
-                (void)m.add_state("seen " + what, "1", 1, expression(0));
-                m.rate("seen " + what) = value;
-            };
-            for (auto const& u : about.inputs) show("input " + u.name, m.input(u.name));
-            for (auto const& c : about.constants) show("constant " + c.name, m.constant(c.name));
-            show("time", m.time());
-        };
         auto with_seen = first;
-        with_seen.push_back(seen);
+        with_seen.push_back(seen_effect(base.about, first, std::numeric_limits<int>::max()));
         seen_ = with(base, std::move(with_seen));
         before_ = with(base, std::move(first));
         after_ = with(base, effects);
