@@ -222,6 +222,16 @@ private:
 SIVID_DECL void require_distinct(model_description const& about,
                                  std::vector<effect> const& effects);
 
+namespace model_detail {
+/// An effect that changes nothing, and shows what the model sees behind the inputs' edits of
+/// others: states of which the rates are the inputs, then the constants, then the time, in the
+/// order of the model.
+/// @param beside  those that it is joined with; its name is none of theirs
+/// @param order   it sees those of this order, and below
+[[nodiscard]] SIVID_DECL effect seen_effect(model_description const& about,
+                                            std::vector<effect> const& beside, int order);
+} // namespace model_detail
+
 /// A model with effects. Their parameters become constants `<effect>.<parameter>`, nominal at the
 /// neutral value; states that they add, and switches of those that act in some experiments only,
 /// stand behind the model's own states and inputs.

@@ -3,7 +3,6 @@
 #define SIVID_MODEL_IMPL_EFFECT_IPP
 
 #include <sivid/model/change/copy_equations.hpp>
-#include <sivid/model/change/detail/seen_effect.hpp>
 #include <sivid/model/effect.hpp>
 
 #include <algorithm>
@@ -37,6 +36,27 @@ SIVID_DECL interval effect_parameter::prior() const {
     return hull(moved(lower, upper), moved(upper, lower));
 }
 
+SIVID_DECL effect model_detail::seen_effect(model_description const& about,
+                                            std::vector<effect> const& beside, int order) {
+    effect seen;
+    seen.name = "seen";
+    seen.order = order;
+    auto const taken = [&seen](auto const& item) { return item.name == seen.name; };
+    while (std::any_of(beside.begin(), beside.end(), taken) ||
+           std::any_of(about.inputs.begin(), about.inputs.end(), taken))
+        seen.name += "'";
+    seen.on_inputs = [about, name = seen.name](effect_scope& m) {
+        auto const show = [&](std::string const& what, expression const& value) {
+            (void)m.add_state(name + " " + what, "1", 1, expression(0));
+            m.rate(name + " " + what) = value;
+        };
+        for (auto const& u : about.inputs) show("input " + u.name, m.input(u.name));
+        for (auto const& c : about.constants) show("constant " + c.name, m.constant(c.name));
+        show("time", m.time());
+    };
+    return seen;
+}
+
 SIVID_DECL bool finds_as_recorded(recorded_model const& base, std::vector<effect> const& effects,
                                   std::size_t which, std::string const& input) {
     std::vector<effect> before;
@@ -46,7 +66,7 @@ SIVID_DECL bool finds_as_recorded(recorded_model const& base, std::vector<effect
             before.push_back(other);
         }
     }
-    before.push_back(seen_effect(base.about, before, effects[which].order));
+    before.push_back(model_detail::seen_effect(base.about, before, effects[which].order));
     auto const changed = with(base, before);
     auto const k = index_of(base.about.inputs, input, "input");
     auto const& g = changed.g;

@@ -5,7 +5,6 @@
 #include <sivid/model/change/changed_formulas.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/change/detail/seen_effect.hpp>
 #include <sivid/model/graph/detail/formula_text.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/text/nearest_text.hpp>
@@ -58,7 +57,8 @@ public:
         auto first = effects;
         for (auto& e : first) e.on_rates = e.on_channels = {};
         auto with_seen = first;
-        with_seen.push_back(seen_effect(base.about, first, std::numeric_limits<int>::max()));
+        with_seen.push_back(
+            model_detail::seen_effect(base.about, first, std::numeric_limits<int>::max()));
         seen_ = with(base, std::move(with_seen));
         before_ = with(base, std::move(first));
         after_ = with(base, effects);
