@@ -409,7 +409,7 @@ TEST_CASE("identify joins effects of the catalogue to the model, and check joins
     for (auto const& f :
          {forgery{"[]", "other parameters"}, forgery{"[\"motor_lag\"]", "other parameters"},
           forgery{"[\"rudder_lag\", \"wind\"]", "other parameters"},
-          forgery{"[\"rudder_lag\", \"rudder_lag\"]", "twice"},
+          forgery{"[\"rudder_lag\", \"rudder_lag\"]", "two effects are called"},
           forgery{"[\"gravity\"]", "unknown effect"},
           forgery{"[\"\\u001b[2J\"]", "control character"}, forgery{"\"rudder_lag\"", "effects"}}) {
         auto forged = text;
@@ -421,7 +421,7 @@ TEST_CASE("identify joins effects of the catalogue to the model, and check joins
         CHECK_THAT(r.err, ContainsSubstring(f.says) && !ContainsSubstring("\x1b"));
     }
     CHECK_THAT(with("rudder_lagg").err, ContainsSubstring("unknown effect 'rudder_lagg'; known: "));
-    CHECK_THAT(with("wind,wind").err, ContainsSubstring("twice"));
+    CHECK_THAT(with("wind,wind").err, ContainsSubstring("two effects are called"));
     // A delay does not explain what a lag has made; refuted slice by slice, as far as time goes.
     auto const delayed = with("input_delay");
     CHECK((delayed.code == 4 || delayed.code == 3));

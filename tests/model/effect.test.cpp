@@ -399,7 +399,7 @@ TEST_CASE("mistakes in effects are named") {
         return e;
     };
     CHECK_THROWS_WITH(with(tank{}, with_input("v")), ContainsSubstring("unknown input 'v'"));
-    CHECK_THROWS_WITH(with(tank{}, doubled("a"), doubled("a")), ContainsSubstring("twice"));
+    CHECK_THROWS_WITH(with(tank{}, doubled("a"), doubled("a")), ContainsSubstring("two effects are called 'a'"));
     effect start;
     start.name = "start";
     start.on_inputs = [](effect_scope& m) { (void)m.add_state("d", "m", 1, m.state("x")); };
