@@ -37,8 +37,10 @@ parametric_set<taylor_model<double>> random_set(draws& d, std::size_t n, std::si
         for (auto& x : v) x = d.uniform(-1, 1);
         return v;
     }();
-    for (std::size_t j = 0; j < columns; ++j) {
-        auto& g = set.columns.emplace_back();
+    for (std::size_t j = 0; j < columns; ++j) { // a few in each step
+        if (j % 2 == 0) set.append(std::vector<double>(std::min<std::size_t>(2, columns - j), 1.0));
+        auto& g = set.columns[j];
+        g.clear();
         double const size = std::pow(10, -d.uniform(0, 6));
         for (std::size_t i = 0; i < n; ++i) {
             auto entry =
@@ -179,8 +181,10 @@ TEST_CASE("reduce keeps every member") {
         auto const before = random_set<2, 3>(d, n, 10 * n + 1 + d.below(20), trial % 2 == 0);
         auto after = before;
         std::size_t const most = d.coin() ? 10 * n : 2 * n;
-        after.reduce(most);
-        REQUIRE(after.columns.size() <= std::max(most, 2 * n));
+        std::vector<double> lost(n, 0.0);
+        after.reduce(most, lost);
+        REQUIRE(after.columns.size() <= std::max(most, n));
+        after.append(lost);
         for (int sample = 0; sample < 60; ++sample) {
             auto const q = support::short_point(d, 2);
             // The farthest member in a direction, and random ones.
@@ -211,8 +215,8 @@ TEST_CASE("reduce: the argument, step by step") {
         std::size_t const n = 3;
         auto const before = random_set<1, 2>(d, n, 12, trial % 2 == 0);
         auto after = before;
-        after.reduce(2 * n); // keeps none: everything is boxed
-        REQUIRE(after.columns.size() <= 2 * n);
+        std::vector<double> lost(n, 0.0);
+        after.reduce(0, lost); // everything is boxed, up to the longest
         Eigen::MatrixXd frame(3, 3);
         for (Eigen::Index j = 0; j < 3; ++j) {
             for (Eigen::Index i = 0; i < 3; ++i) {
@@ -238,11 +242,45 @@ TEST_CASE("reduce does not lose a column that is not finite") {
         auto set = random_set<1, 2>(d, 2, 30, false);
         for (auto& c : set.columns[17][1].coefficients()) c = bad;
         set.columns[17][1].finish();
-        set.reduce(10);
+        std::vector<double> lost(2, 0.0);
+        set.reduce(10, lost);
+        REQUIRE(set.columns.size() <= 10);
         set.measure();
         REQUIRE_FALSE(std::isfinite(set.reach[0] + set.reach[1]));
         auto const hull = set.hull();
         REQUIRE_FALSE(is_empty(hull[1]));
         REQUIRE(width(hull[1]) == HUGE_VAL);
+    }
+}
+
+TEST_CASE("what thousands of steps lose is not boxed thousands of times") {
+    // A heading that drifts, and a place that drifts with it and turns slowly: each step adds a box.
+    std::size_t const n = 3;
+    double const turned = 0.002, h = 0.15;
+    Eigen::Matrix3d step;
+    step << std::cos(turned), -std::sin(turned), 0, std::sin(turned), std::cos(turned), h, 0, 0, 1;
+    Eigen::Vector3d const added(1e-4, 1e-4, 1e-3);
+    Eigen::Vector3d exact = Eigen::Vector3d::Zero();
+    parametric_set<taylor_model<double>> set(n);
+    Eigen::Matrix3d power = Eigen::Matrix3d::Identity();
+    for (int k = 0; k < 3000; ++k) {
+        exact += power.cwiseAbs() * added;
+        power *= step;
+        for (auto& g : set.columns) {
+            Eigen::Vector3d const now = step * Eigen::Vector3d(g[0].c(0), g[1].c(0), g[2].c(0));
+            for (std::size_t i = 0; i < n; ++i) {
+                g[i] = taylor_model<double>::constant(now[static_cast<Eigen::Index>(i)]);
+            }
+        }
+        std::vector<double> lost{added[0], added[1], added[2]};
+        set.reduce(13 * n, lost);
+        set.append(lost);
+        set.measure();
+    }
+    CHECK(set.columns.size() <= 14 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        CAPTURE(i, set.reach[i], exact[static_cast<Eigen::Index>(i)]);
+        CHECK(set.reach[i] >= exact[static_cast<Eigen::Index>(i)] * (1 - 1e-9));
+        CHECK(set.reach[i] <= exact[static_cast<Eigen::Index>(i)] * 2);
     }
 }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -49,7 +50,7 @@ struct parametric_set {
     C time{};
     std::vector<Model> centre;   ///< P, radii 0
     std::vector<C> tail;         ///< \f$ \ell \f$, 0 but for points: see `parametric_flow`
-    std::vector<column> columns; ///< g_j, radii 0
+    std::vector<column> columns; ///< g_j, radii 0, oldest first
     std::vector<C> reach;        ///< \f$ E_i \ge |\ell_i| + \sum_j \|g_{ij}\| \f$
 
     explicit parametric_set(std::size_t states = 0, shape_type const& s = shape_type::number())
@@ -85,12 +86,15 @@ struct parametric_set {
 
     /// Adds the box \f$ \prod [-s_i, s_i] \f$ as generators along the axes.
     void append(std::vector<C> const& s) {
+        std::size_t added = 0;
         for (std::size_t i = 0; i < s.size(); ++i) {
             if (side_by_side::all(s[i] == C(0.0))) continue;
             column g(s.size());
             g[i] = Model::constant(known(s[i])); // NaN: nothing is known
             columns.push_back(std::move(g));
+            ++added;
         }
+        if (added > 0) groups_.push_back({1, added});
     }
     /// Recomputes the reach.
     void measure() {
@@ -117,12 +121,27 @@ struct parametric_set {
         return result;
     }
 
-    /// Limits the number of generators: the longest stay, the others are boxed in the orthogonal
-    /// frame of the longest directions.
+    /// Limits the number of generators. Most of the longest stay as they are; the others are boxed,
+    /// those of neighbouring steps together, in the orthogonal frame of their longest directions,
+    /// in units of what each state has lost.
+    ///   Each time that something is boxed it loses some dependence. So the steps are parted in
+    /// groups, and two neighbours are joined whose older one has fewest steps for each of the newer
+    /// one's: of N steps none is boxed much more often than log(N) times, however few the columns.
+    /// @param lost  what this costs by rounding is added
     /// @param used  the lanes that matter for the choice; sound in all of them
-    void reduce(std::size_t most, mask used = mask(true));
+    void reduce(std::size_t most, std::vector<C>& lost, mask used = mask(true));
 
 private:
+    /// Of steps that follow each other.
+    struct group {
+        std::size_t steps, columns;
+    };
+
+    /// @param unit  powers of two
+    /// @given  count is at least the number of states
+    /// @returns how many columns stand for them, at most one a state
+    std::size_t box_together(std::size_t first, std::size_t count, std::vector<C> const& unit,
+                             std::vector<C>& lost, mask used);
     static C known(C const& x) {
         return side_by_side::select(x >= C(0.0), x, C(std::numeric_limits<double>::infinity()));
     }
@@ -135,11 +154,14 @@ private:
             for (auto const& x : lengths) longest = std::max(longest, side_by_side::get(x, l));
             if (!(longest > 0) || !std::isfinite(longest)) continue;
             for (std::size_t j = 0; j < result.size(); ++j) {
-                result[j] += side_by_side::get(lengths[j], l) / longest;
+                double const share = side_by_side::get(lengths[j], l) / longest;
+                result[j] += share >= 0 ? share : 0; // else no number
             }
         }
         return result;
     }
+
+    std::vector<group> groups_; ///< whose columns stand one after the other
 };
 
 /// Completes a failure by what its state spans as a function of the unknowns, what the set has lost
@@ -172,36 +194,80 @@ template <class Model>
 }
 
 template <class Model>
-void parametric_set<Model>::reduce(std::size_t most, mask used) {
+void parametric_set<Model>::reduce(std::size_t most, std::vector<C>& lost, mask used) {
+    if (columns.size() <= most) return;
     auto const n = centre.size();
-    if (columns.size() <= most || columns.size() < 2 * n) return;
+    measure();
+    std::vector<C> unit; // of each state: about what it has lost, as a power of two
+    for (auto const& e : reach) {
+        unit.push_back(each_lane<C>([&](std::size_t l) {
+            double const x = side_by_side::get(e, l);
+            return x > 1e-100 && x < 1e100 ? std::ldexp(1.0, std::ilogb(x)) : 1.0;
+        }));
+    }
     std::vector<C> length(columns.size());
     for (std::size_t j = 0; j < columns.size(); ++j) {
-        for (auto const& entry : columns[j]) length[j] += entry.norm();
+        for (std::size_t i = 0; i < n; ++i) length[j] += columns[j][i].norm() / unit[i];
     }
-    auto const score = shares(length, used);
-    std::vector<std::size_t> order(columns.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return score[a] > score[b]; });
-    std::size_t const kept = most > 3 * n ? most - 3 * n : 0;
+    auto score = shares(length, used);
+    double const longest = [&] {
+        auto order = score;
+        auto const at = order.begin() + static_cast<std::ptrdiff_t>(
+                                            std::min(most / 2, most - std::min(most, 2 * n)));
+        std::nth_element(order.begin(), at, order.end(), std::greater<>());
+        return *at;
+    }();
+    while (columns.size() > most && groups_.size() > 1) {
+        std::size_t older = 0;
+        auto const gap = [this](std::size_t k) {
+            return static_cast<double>(groups_[k].steps) /
+                   static_cast<double>(groups_[k + 1].steps);
+        };
+        for (std::size_t k = 1; k + 1 < groups_.size(); ++k)
+            older = gap(k) < gap(older) ? k : older;
+        std::size_t first = 0;
+        for (std::size_t k = 0; k < older; ++k) first += groups_[k].columns;
+        auto& both = groups_[older];
+        both.steps += groups_[older + 1].steps;
+        both.columns += groups_[older + 1].columns;
+        groups_.erase(groups_.begin() + static_cast<std::ptrdiff_t>(older) + 1);
+        std::size_t shorter = 0; // these come first
+        for (std::size_t k = first; k < first + both.columns; ++k) {
+            if (score[k] > longest) continue;
+            std::swap(score[k], score[first + shorter]);
+            columns[k].swap(columns[first + shorter]);
+            ++shorter;
+        }
+        // Fewer are not worth what boxing loses.
+        if (shorter < 3 * n && (groups_.size() > 1 || shorter <= n)) continue;
+        auto const made = box_together(first, shorter, unit, lost, used);
+        score.erase(score.begin() + static_cast<std::ptrdiff_t>(first + made),
+                    score.begin() + static_cast<std::ptrdiff_t>(first + shorter));
+        both.columns -= shorter - made;
+    }
+}
 
+template <class Model>
+std::size_t parametric_set<Model>::box_together(std::size_t first, std::size_t count,
+                                                std::vector<C> const& unit, std::vector<C>& lost,
+                                                mask used) {
+    auto const n = centre.size();
     std::vector<std::vector<C>> directions;
-    for (std::size_t k = kept; k < order.size(); ++k) {
+    for (std::size_t k = first; k < first + count; ++k) {
         auto& d = directions.emplace_back(n);
-        for (std::size_t i = 0; i < n; ++i) d[i] = columns[order[k]][i].c()[0];
+        for (std::size_t i = 0; i < n; ++i) d[i] = columns[k][i].c()[0] / unit[i];
     }
     auto const frame =
         common_frame(std::move(directions), [&](auto const& x) { return shares(x, used); });
     double up = 1; // enough for the sums over the terms of an entry
-    for (auto const& g : columns) {
-        for (auto const& entry : g) up = std::max(up, entry.shape().up);
+    for (std::size_t k = first; k < first + count; ++k) {
+        for (auto const& entry : columns[k]) up = std::max(up, entry.shape().up);
     }
-    // Coordinates of the dropped columns in the frame: (1 + R)^{-1} Q^T g with |R| <= defect.
+    // Coordinates of the columns in the frame: (1 + R)^{-1} Q^T g with |R| <= defect.
     std::vector<C> side(n);
     std::vector<C> along(n);
-    for (std::size_t k = kept; k < order.size(); ++k) {
-        auto const& g = columns[order[k]];
+    for (std::size_t k = first; k < first + count; ++k) {
+        auto const& g = columns[k];
         C most_along{};
         for (std::size_t i = 0; i < n; ++i) {
             C sum{}, mass{};
@@ -210,35 +276,33 @@ void parametric_set<Model>::reduce(std::size_t most, mask used) {
             for (std::size_t m = 0; m < terms; ++m) {
                 C c{};
                 for (std::size_t l = 0; l < n; ++l) {
-                    if (m < g[l].terms()) c += frame.axis[i][l] * g[l].c(m);
+                    if (m < g[l].terms()) c += frame.axis[i][l] * (g[l].c(m) / unit[l]);
                 }
                 sum += side_by_side::abs(c);
             }
             for (std::size_t l = 0; l < n; ++l) {
-                mass += side_by_side::abs(frame.axis[i][l]) * g[l].norm();
+                mass += side_by_side::abs(frame.axis[i][l]) * (g[l].norm() / unit[l]);
             }
             along[i] = sum * up + mass * (static_cast<double>(n + 4) * Model::unit) + Model::tiny;
             most_along = side_by_side::max(along[i], most_along);
         }
         for (std::size_t i = 0; i < n; ++i) side[i] += along[i] + frame.defect * most_along;
     }
-    std::vector<column> next;
-    for (std::size_t k = 0; k < kept; ++k) next.push_back(std::move(columns[order[k]]));
-    std::vector<C> lost(n); // by rounding the new columns
+    std::size_t made = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        C const s = side[i] * (1 + 8 * static_cast<double>(order.size() + 4) * Model::unit);
+        C const s = side[i] * (1 + 8 * static_cast<double>(count + 4) * Model::unit);
         if (side_by_side::all(s == C(0.0))) continue;
-        column g(n);
+        auto& g = columns[first + made++];
         for (std::size_t l = 0; l < n; ++l) {
-            C const e = frame.axis[i][l] * s;
+            C const e = frame.axis[i][l] * s * unit[l];
             g[l] = Model::constant(e);
-            lost[l] += side_by_side::abs(e) * (2 * Model::unit) + Model::tiny;
+            lost[l] +=
+                (side_by_side::abs(e) * (2 * Model::unit) + Model::tiny) * (1 + 64 * Model::unit);
         }
-        next.push_back(std::move(g));
     }
-    columns = std::move(next);
-    for (auto& l : lost) l *= 1 + 64 * Model::unit;
-    append(lost);
+    columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(first + made),
+                  columns.begin() + static_cast<std::ptrdiff_t>(first + count));
+    return made;
 }
 
 } // namespace sivid

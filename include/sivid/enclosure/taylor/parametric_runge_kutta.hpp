@@ -389,8 +389,8 @@ void parametric_runge_kutta<Model>::accept(double to, interval const& h, Eigen::
     set_.time = to;
     swept_ = tube_box_;
     set_.centre = std::move(next);
+    set_.reduce(13 * n, lost);
     set_.append(lost);
-    set_.reduce(10 * n);
     set_.measure();
     for (std::size_t i = 0; i < n; ++i) disturbed_[i] = std::min(disturbed_[i], set_.reach[i]);
 }

@@ -265,14 +265,17 @@ public:
         bool const point = paving_detail::unknown_count(initial, parameters) == 0;
         if (point && options.set == carried_set::taylor_model) {
             auto best = run(*recorded_[e], carried_set::taylor_model);
-            bool const fine = best->blur() < 0.02 && !on_the_brink(*best, parameters);
-            if (auto rest = parameters; fine || assess(*best, rest).refuted) return best;
+            auto const open = [&] { return on_the_brink(*best, parameters); };
+            bool const sharp = best->blur() < 0.02;
+            auto rest = parameters;
+            if ((sharp && !open()) || assess(*best, rest).refuted) return best;
             if (auto const f = smooth_flow(e)) {
-                // In steps as short as kinks of inputs are narrow.
-                auto smooth = run(*f, carried_set::taylor_model, 1e-8);
+                auto smooth = run(*f, carried_set::taylor_model, 1e-8); // kinks are as narrow
                 if (smooth->blur() < best->blur()) best = std::move(smooth);
             }
-            if (best->blur() < detail::infinity) return best;
+            if (best->blur() < detail::infinity && !(sharp && open())) return best;
+            auto other = run(*recorded_[e], carried_set::doubleton);
+            return other->blur() < best->blur() ? other : best;
         }
         return run(*recorded_[e], carried_set::doubleton);
     }
@@ -358,9 +361,7 @@ private:
     }
     static bool same(box const& x, box const& y) { return subset(x, y) && subset(y, x); }
     static bool is_point(box const& x) {
-        return std::all_of(x.begin(), x.end(), [](interval const& side) {
-            return interval_traits<interval>::is_point(side);
-        });
+        return std::all_of(x.begin(), x.end(), interval_traits<interval>::is_point);
     }
     [[nodiscard]] bool starts_differ(std::size_t e) const {
         return !subset(problem_->experiments[e].initial, starts_[e]);

@@ -157,8 +157,8 @@ void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
         swept_[i] = select(moved, during, swept_[i]);
     }
     set_.time = side_by_side::select(moved, to, set_.time);
+    set_.reduce(13 * n, lost, running_);
     set_.append(lost);
-    set_.reduce(12 * n, running_);
     set_.measure();
     for (std::size_t i = 0; i < n && perturbed_; ++i) {
         disturbed_[i] = side_by_side::min(disturbed_[i], set_.reach[i]);
