@@ -89,6 +89,7 @@
 #include <sivid/model/structure/resting_states.hpp>
 #include <sivid/model/structure/states_seen.hpp>
 #include <sivid/model/structure/symmetry.hpp>
+#include <sivid/model/structure/unknown_curve.hpp>
 #include <sivid/model/to_dot.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/approximate/approximate_fit.hpp>
@@ -132,6 +133,9 @@
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/paving/bisection_test.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
+#include <sivid/paving/curve/curve_family.hpp>
+#include <sivid/paving/curve/curve_shapes.hpp>
+#include <sivid/paving/curve/shaped_problem.hpp>
 #include <sivid/paving/divisors.hpp>
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>

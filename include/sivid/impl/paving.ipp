@@ -3,6 +3,9 @@
 #define SIVID_IMPL_PAVING_IPP
 
 #include <sivid/paving/contract/impl/window_contraction.ipp>
+#include <sivid/paving/curve/impl/curve_family.ipp>
+#include <sivid/paving/curve/impl/curve_shapes.ipp>
+#include <sivid/paving/curve/impl/shaped_problem.ipp>
 #include <sivid/paving/impl/identify.ipp>
 #include <sivid/paving/impl/inflation.ipp>
 #include <sivid/paving/impl/outlier_budget.ipp>

@@ -5,6 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/executor.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/response/response.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/space/box.hpp>
 
@@ -29,19 +30,23 @@ struct window_options {
     std::function<bool()> keep_going = nullptr; ///< asked now and then by any thread; may be empty
     executor workers{};                         ///< runs windows and programs at once
     double longest = std::numeric_limits<double>::infinity(); ///< no window is longer [s]
+    double first = std::numeric_limits<double>::infinity();   ///< length that is tried first [s]
     /// In one program: they are run side by side, and a program's cost grows with their cube.
     std::size_t windows = 8;
     /// Windows of a record that follow each other; 1: one from its begin, which grows.
     std::size_t chained = 24;
+    std::size_t degree = 3; ///< of Taylor models, at most
     /// Asked as the prior shrinks. Windows then begin all along a record at once, in these states,
     /// instead of one after the other; may be empty.
     std::function<known_motions(box const&)> equations = nullptr;
     /// Products of two unknowns that move no measurement by more than this share of its bound are
     /// errors, no unknowns.
     double share = 0.02;
-    /// Ends when in three rounds no window could grow and the sides shrank, on the average, by
+    /// Ends when in so many rounds no window could grow and the sides shrank, on the average, by
     /// less.
     double gain = 0.02;
+    std::size_t patience = 3;    ///< rounds
+    bool keep_responses = false; ///< of the windows of the last program
 };
 
 /// What windows, or slower inputs, leave of the prior.
@@ -56,6 +61,8 @@ struct window_contraction {
     /// searched the prior as well; 0: it saw them as they are. [s]
     double input_period = 0;
     std::size_t integrations = 0; ///< beside those of windows
+    response_list responses{};    ///< where they are kept
+    std::vector<box> from{};      ///< the states in which their windows begin
 
     [[nodiscard]] bool empty() const { return is_empty(rest); }
 };

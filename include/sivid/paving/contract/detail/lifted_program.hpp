@@ -98,6 +98,22 @@ public:
         target.add_linear(j, traits::point(upwards ? -1.0 : 1.0));
         return std::min(1.0, most(std::move(goal), std::move(target)));
     }
+    /// What an unknown can reach of its range. @param range  for which its unit stands
+    [[nodiscard]] interval contracted(std::size_t unknown, interval const& range) const {
+        auto left = range;
+        for (bool const upwards : {true, false}) {
+            double const most = reach(unknown, upwards);
+            if (!(most < 1)) continue;
+            if (!std::isfinite(most)) return traits::empty();
+            auto const end = traits::add(
+                traits::point(mid(range)),
+                traits::mul(traits::point(rad(range)), traits::point(upwards ? most : -most)));
+            left = traits::intersect(left, upwards ? traits::bounds(-detail::greatest, end.upper())
+                                                   : traits::bounds(end.lower(), detail::greatest));
+            if (is_empty(left)) break;
+        }
+        return left;
+    }
     /// A bound that an output of an experiment keeps, from above or from below; infinite when none
     /// was found.
     [[nodiscard]] double end_of(std::size_t experiment, std::size_t output, bool upwards) const {

@@ -125,28 +125,11 @@ private:
             auto const& side = w.answer->unknowns.initial[i];
             if (!(side.radius > 0) || !limit_()) continue;
             auto const unknown = program.unknowns().places[0][side.variable].unknown;
-            auto const left = contracted(program, unknown, w.start[i]);
+            auto const left = program.contracted(unknown, w.start[i]);
             if (is_empty(left)) return false;
             w.start[i] = left;
         }
         return true;
-    }
-    /// Cuts off what an unknown cannot reach of its range. @returns what is left
-    [[nodiscard]] static interval contracted(lifted_program const& program, std::size_t unknown,
-                                             interval const& range) {
-        auto left = range;
-        for (bool const upwards : {true, false}) {
-            double const reach = program.reach(unknown, upwards);
-            if (!(reach < 1)) continue;
-            if (!std::isfinite(reach)) return traits::empty();
-            auto const end = traits::add(
-                traits::point(mid(range)),
-                traits::mul(traits::point(rad(range)), traits::point(upwards ? reach : -reach)));
-            left = traits::intersect(left, upwards ? traits::bounds(-detail::greatest, end.upper())
-                                                   : traits::bounds(end.lower(), detail::greatest));
-            if (is_empty(left)) break;
-        }
-        return left;
     }
     /// The states at the end of a window, unless there are none.
     [[nodiscard]] std::optional<box> end_of(window const& w) const {
@@ -207,7 +190,7 @@ private:
     void follow(std::size_t e, std::vector<window>& chain) {
         auto const& whole = problem_->experiments[e];
         auto const& record = records_[e];
-        double length = std::min(last_sample(e) - whole.begin, options_.longest);
+        double length = std::min({last_sample(e) - whole.begin, options_.longest, options_.first});
         double at = whole.begin;
         auto start = whole.initial;
         degree_ = highest_degree();
@@ -310,9 +293,13 @@ private:
             lifted_program const program(known, before, starts, options_.share);
             options_.workers(before.size(), [&](std::size_t j) {
                 if (!(rad(before[j]) > 0) || !limit_()) return;
-                result_.rest[j] = contracted(program, j, before[j]);
+                result_.rest[j] = program.contracted(j, before[j]);
             });
             ++result_.rounds;
+            if (options_.keep_responses) {
+                result_.responses = known;
+                result_.from = starts;
+            }
             if (result_.empty()) return nothing_is_left();
             std::vector<char> left(count, 1); // by window: of its start
             options_.workers(count, [&](std::size_t k) {
@@ -327,7 +314,7 @@ private:
                 }
                 bool const ends = !(w.to < last_sample(w.experiment));
                 if (w.blur < 1 && !ends && lengths[k] < options_.longest) {
-                    lengths[k] = std::min(1.35 * lengths[k], options_.longest);
+                    lengths[k] = std::min((w.blur < 0.5 ? 2 : 1.35) * lengths[k], options_.longest);
                     grown = grown || lengths[k] > longest[k];
                     longest[k] = std::max(longest[k], lengths[k]);
                 } else if (!(w.blur < 4)) {
@@ -343,7 +330,7 @@ private:
             double const volume = relative_volume(result_.rest, before).upper();
             double const side = std::pow(volume, 1 / static_cast<double>(before.size()));
             idle = side > 1 - options_.gain && !grown ? idle + 1 : 0;
-            if (idle < 3) continue;
+            if (idle < options_.patience) continue;
             // Longer windows see more, and may be worth their blur.
             if (stretched == most_stretches) break;
             bool any = false;
@@ -367,7 +354,9 @@ private:
         for (auto const& e : problem_->experiments) {
             starts = std::max(starts, normalised_unknowns(e.initial, {}).variables);
         }
-        return problem_->prior.size() + starts <= (growing ? 18U : 14U) ? 3 : 2;
+        std::size_t const affordable =
+            problem_->prior.size() + starts <= (growing ? 18U : 14U) ? 3 : 2;
+        return std::min(affordable, options_.degree);
     }
     static constexpr double too_blurred = 8;
 

@@ -16,6 +16,7 @@
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/equation_guide.hpp>
 #include <sivid/paving/judge/detail/runless_contraction.hpp>
+#include <sivid/paving/judge/detail/shape_contraction.hpp>
 #include <sivid/paving/work_limit.hpp>
 
 #include <algorithm>
@@ -233,6 +234,12 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
     };
     auto const asked = [&]() -> data_test& { return after ? *after : test; };
     bool again = false, slowed = false;
+    if (options.windows && limit() && test.reached(posed.prior) < 0.25) {
+        if (auto found = contract_by_shapes(posed, options, limit)) {
+            (void)go_on_with(*std::move(found));
+            return result;
+        }
+    }
     if (options.windows && limit()) {
         again = starts_hinder(test, posed); // of which the equations tell nothing
         if (auto found = contract_by_equations(test, posed, limit)) {

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_CURVE_DETAIL_PRINCIPAL_SHAPES_HPP
+#define SIVID_PAVING_CURVE_DETAIL_PRINCIPAL_SHAPES_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+/// @file
+/// Doubles without proof: which shapes to take. What is proved of them is proved of whatever they
+/// are.
+
+namespace sivid::paving_detail {
+
+/// Chebyshev's nodes in [-1, 1].
+inline std::vector<double> chebyshev_nodes(std::size_t n) {
+    std::vector<double> x;
+    for (std::size_t i = 0; i < n; ++i) {
+        x.push_back(
+            std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n)));
+    }
+    return x;
+}
+
+/// Coefficients of Chebyshev's polynomials of what has these values at their nodes.
+inline std::vector<double> chebyshev_coefficients(std::vector<double> const& values) {
+    auto const n = values.size();
+    std::vector<double> c(n, 0.0);
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = 0; i < n; ++i) {
+            c[k] += values[i] * std::cos(std::numbers::pi * static_cast<double>(k) *
+                                         (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+        }
+        c[k] *= (k == 0 ? 1.0 : 2.0) / static_cast<double>(n);
+    }
+    return c;
+}
+
+/// The same by powers, up to a degree; what is nothing beside the rest is left out.
+inline std::vector<double> by_powers(std::vector<double> const& chebyshev, std::size_t degree) {
+    std::vector<double> result(degree + 1, 0.0), before{1.0}, now{0.0, 1.0};
+    double most = 0;
+    for (double const c : chebyshev) most = std::max(most, std::abs(c));
+    for (std::size_t k = 0; k < std::min(chebyshev.size(), degree + 1); ++k) {
+        double const c = std::abs(chebyshev[k]) > 1e-13 * most ? chebyshev[k] : 0;
+        auto const& t = k == 0 ? before : now;
+        for (std::size_t i = 0; i < t.size(); ++i) result[i] += c * t[i];
+        if (k == 0) continue;
+        std::vector<double> next(now.size() + 1, 0.0);
+        for (std::size_t i = 0; i < now.size(); ++i) next[i + 1] += 2 * now[i];
+        for (std::size_t i = 0; i < before.size(); ++i) next[i] -= before[i];
+        before = std::exchange(now, std::move(next));
+    }
+    return result;
+}
+
+/// Directions in which rows differ most, with how far (singular values), largest first: one-sided
+/// Jacobi, which tells small ones beside large ones.
+struct principal_directions {
+    std::vector<double> size;
+    std::vector<std::vector<double>> direction; ///< of unit length
+
+    explicit principal_directions(std::vector<std::vector<double>> const& rows) {
+        auto const n = rows.empty() ? 0 : rows[0].size();
+        std::vector<std::vector<double>> a(n, std::vector<double>(rows.size())), v(n);
+        for (std::size_t j = 0; j < n; ++j) {
+            for (std::size_t k = 0; k < rows.size(); ++k) a[j][k] = rows[k][j];
+            v[j].assign(n, 0.0);
+            v[j][j] = 1;
+        }
+        auto const dot = [](std::vector<double> const& x, std::vector<double> const& y) {
+            return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
+        };
+        auto const turn = [](std::vector<double>& x, std::vector<double>& y, double c, double s) {
+            for (std::size_t k = 0; k < x.size(); ++k) {
+                double const old = x[k];
+                x[k] = c * old - s * y[k];
+                y[k] = s * old + c * y[k];
+            }
+        };
+        bool turned = true;
+        for (int sweep = 0; sweep < 30 && turned; ++sweep) {
+            turned = false;
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t j = i + 1; j < n; ++j) {
+                    double const p = dot(a[i], a[j]), x = dot(a[i], a[i]), y = dot(a[j], a[j]);
+                    if (!(std::abs(p) > 1e-15 * std::sqrt(x * y))) continue;
+                    double const zeta = (y - x) / (2 * p);
+                    double const t =
+                        (zeta < 0 ? -1.0 : 1.0) / (std::abs(zeta) + std::hypot(1.0, zeta));
+                    double const c = 1 / std::hypot(1.0, t);
+                    turn(a[i], a[j], c, c * t);
+                    turn(v[i], v[j], c, c * t);
+                    turned = true;
+                }
+            }
+        }
+        std::vector<std::size_t> order(n);
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::vector<double> norm;
+        for (auto const& column : a) norm.push_back(std::sqrt(dot(column, column)));
+        std::sort(order.begin(), order.end(),
+                  [&](std::size_t i, std::size_t j) { return norm[i] > norm[j]; });
+        for (auto const j : order) {
+            size.push_back(norm[j]);
+            direction.push_back(v[j]);
+        }
+    }
+};
+
+} // namespace sivid::paving_detail
+
+#endif
