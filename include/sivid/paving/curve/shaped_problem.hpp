@@ -61,7 +61,7 @@ public:
     [[nodiscard]] box const& parameters() const { return parameters_; }
 
 private:
-    struct part {
+    struct shaped_curve {
         curve_family family;
         std::vector<double> visited; ///< values of its argument
         curve_shapes shapes{};
@@ -71,7 +71,7 @@ private:
     bound_model model_;
     std::vector<experiment> experiments_;
     box parameters_;
-    std::vector<part> curves_;
+    std::vector<shaped_curve> curves_;
     /// Of the parameters, those that stand elsewhere, too.
     std::vector<std::size_t> kept_;
 };

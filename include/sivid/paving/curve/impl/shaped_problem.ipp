@@ -137,7 +137,7 @@ shaped_problem::of(identification_problem const& problem, std::function<bool()> 
     paving_detail::visited_arguments const visited(model, problem, curves);
     for (std::size_t k = 0; k < curves.size(); ++k) {
         if (!is_bounded(visited.range[k])) continue;
-        part one{{model, curves[k], problem.prior, visited.range[k]}, visited.middles[k]};
+        shaped_curve one{{model, curves[k], problem.prior, visited.range[k]}, visited.middles[k]};
         // Those that no shapes do for stay as they are.
         auto const shapes = one.family.shapes(one.visited, 1e-4, keep_going);
         if (shapes) result.curves_.push_back(std::move(one));

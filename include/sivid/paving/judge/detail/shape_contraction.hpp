@@ -35,15 +35,17 @@ public:
     [[nodiscard]] window_contraction operator()() {
         using traits = interval_traits<interval>;
         auto const posed = shaped_->parameters();
+        auto const& run = options_->test.run;
         bool left = true;
         if (shaped_->shape(1e-7, *limit_)) {
-            left = windows({.seconds = 0.1 * limit_->seconds(), .chained = 1}) &&
-                   windows({.seconds = 0.17 * limit_->seconds(), .windows = 20}) &&
+            left = windows({.run = run, .seconds = 0.1 * limit_->seconds(), .chained = 1}) &&
+                   windows({.run = run, .seconds = 0.17 * limit_->seconds(), .windows = 20}) &&
                    shaped_->contract();
         }
         for (double before = 1; left && (*limit_)();) {
             if (!shaped_->shape(1e-8, *limit_)) break;
-            left = windows({.seconds = 0.5 * limit_->seconds(),
+            left = windows({.run = run,
+                            .seconds = 0.5 * limit_->seconds(),
                             .first = 1.5 * result_.longest,
                             .chained = 1,
                             .share = fine,
@@ -65,7 +67,6 @@ private:
 
     /// @returns false when it is proved that nothing is left
     [[nodiscard]] bool windows(window_options how) {
-        how.run = options_->test.run;
         how.keep_going = *limit_;
         how.workers = options_->search.workers;
         how.degree = 2; // what is of third order is small where shapes are linear
