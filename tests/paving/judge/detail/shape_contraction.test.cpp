@@ -43,18 +43,16 @@ TEST_CASE("windows over shapes lose no parameter that explains the data, and lea
 }
 
 TEST_CASE("windows over shapes prove that nothing explains, and stop when they are told to") {
-    std::size_t refuted = 0;
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t const seed : {9U, 10U, 37U}) {
         draws d(seed);
         auto p = support::plant_curve(d, true);
         p.problem.prior[0] = interval(1.2 * p.truth[0], 1.4 * p.truth[0]); // of the force
-        auto const left =
-            paving_detail::contract_by_shapes(p.problem, of_one_thread(), work_limit(1.0, nullptr));
-        if (!left || !left->empty()) continue;
-        ++refuted;
+        auto const left = paving_detail::contract_by_shapes(p.problem, of_one_thread(),
+                                                            work_limit(60.0, nullptr));
+        REQUIRE(left);
+        CHECK(left->empty());
         CHECK(left->starts.size() == p.problem.experiments.size());
     }
-    CHECK(refuted > 0);
     draws d(1);
     auto const p = support::plant_curve(d, true);
     CHECK_FALSE(paving_detail::contract_by_shapes(p.problem, of_one_thread(),
