@@ -184,3 +184,12 @@ TEST_CASE("a point within a box is off its bounds, and a side without doubles wi
         CHECK(again[3].lower() == x[3].lower());
     }
 }
+
+TEST_CASE("an empty box has so many empty sides, and adds nothing to a hull") {
+    CHECK(is_empty(empty_box(2)));
+    CHECK(empty_box(2).size() == 2);
+    CHECK_FALSE(is_empty(empty_box(0)));
+    box const other{interval(1.0, 2.0), interval(3.0)};
+    CHECK(subset(hull(empty_box(2), other), other));
+    CHECK(subset(other, hull(empty_box(2), other)));
+}

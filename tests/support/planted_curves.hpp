@@ -3,6 +3,7 @@
 #ifndef SIVID_TESTS_SUPPORT_PLANTED_CURVES_HPP
 #define SIVID_TESTS_SUPPORT_PLANTED_CURVES_HPP
 
+#include "support/catch.hpp"
 #include "support/models.hpp"
 #include "support/random.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -95,6 +97,17 @@ inline planted_curve plant_curve(draws& d, bool swings) {
         result.problem.experiments.push_back(std::move(e));
     }
     return result;
+}
+
+/// visit(problem with its truth, draws that go on), for so many seeds.
+template <class Visit>
+void each_planted_curve(std::uint64_t count, Visit const& visit) {
+    for (std::uint64_t seed = 1; seed <= count; ++seed) {
+        draws d(seed);
+        auto const p = plant_curve(d, d.coin());
+        CAPTURE(seed);
+        visit(p, d);
+    }
 }
 
 } // namespace support

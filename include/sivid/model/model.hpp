@@ -312,6 +312,12 @@ void require_own_names(std::string const& whose, std::string const& what, Items 
 }
 /// The same among the states, among the inputs, the channels and the constants.
 SIVID_DECL void require_own_names(model_description const& about);
+/// The name, primed until it is not taken.
+template <class Taken>
+[[nodiscard]] std::string unused_name(std::string name, Taken const& taken) {
+    while (taken(name)) name += "'";
+    return name;
+}
 /// What a functor says of itself, as data.
 /// @throws std::invalid_argument as `require_own_names`
 [[nodiscard]] SIVID_DECL model_description described(std::string_view name,

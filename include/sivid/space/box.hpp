@@ -76,6 +76,11 @@ template <class I = interval>
     return result;
 }
 
+/// So many empty sides.
+[[nodiscard]] inline basic_box<interval> empty_box(std::size_t sides) {
+    return basic_box<interval>(std::vector<interval>(sides, interval_traits<interval>::empty()));
+}
+
 /// The smallest box that contains both; an empty operand adds nothing.
 template <class I>
 [[nodiscard]] basic_box<I> hull(basic_box<I> const& a, basic_box<I> const& b) {

@@ -70,3 +70,41 @@ TEST_CASE("reachable nodes include companions and nothing idle") {
     CHECK(needed[x]);
     CHECK_FALSE(needed[idle]);
 }
+
+TEST_CASE(
+    "nodes that stand in for others are made of what they name, and nothing below is copied") {
+    graph from;
+    auto const x = from.leaf(operation::state, 0), p = from.leaf(operation::constant, 3);
+    auto const z = from.unary(operation::sqr, x);
+    auto const curve = from.unary(operation::sin, from.binary(operation::mul, p, z));
+    auto const sum = from.binary(operation::add, curve, x);
+    stand_ins const instead{{curve, z}};
+    auto const needed = operands_of(from, {sum}, instead);
+    CHECK(needed[z]);
+    CHECK(needed[x]);
+    CHECK_FALSE(needed[p]);
+    auto const same = [](node const& n, graph& h) {
+        REQUIRE(n.op != operation::constant);
+        return h.leaf(n.op, static_cast<std::size_t>(n.index));
+    };
+    graph to;
+    auto const image = copy_into(to, from, {sum, curve}, same, same_operation{}, instead,
+                                 [&](node_id i, node_id of, graph& h) {
+                                     CHECK(i == curve);
+                                     return h.binary(operation::mul, h.constant(2.0), of);
+                                 });
+    graph expected; // 2 x^2 + x
+    auto const y = expected.leaf(operation::state, 0);
+    auto const twice =
+        expected.binary(operation::mul, expected.constant(2.0), expected.unary(operation::sqr, y));
+    (void)expected.binary(operation::add, twice, y);
+    CHECK(to.size() == expected.size());
+    CHECK(to[image[0]].op == operation::add);
+    CHECK(to[image[1]].op == operation::mul);
+    // Made of nothing.
+    graph small;
+    auto const number =
+        copy_into(small, from, {sum}, same, same_operation{}, {{curve, std::nullopt}},
+                  [](node_id, node_id, graph& h) { return h.constant(0.0); });
+    CHECK(small[number[0]].op == operation::state);
+}

@@ -6,7 +6,9 @@
 
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph/arithmetic.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -79,4 +81,41 @@ TEST_CASE("a curve that stands in several equations with other factors is one") 
     auto const found = find_curves(bound);
     REQUIRE(found.size() == 1);
     CHECK(found[0].parameters == std::vector<std::size_t>{0, 1});
+}
+
+TEST_CASE("a curve is computed alone, by its argument and its own parameters") {
+    auto const recorded =
+        support::model_of({2, 4, 0}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            using std::atan, std::sin;
+            auto const z = x[0] * x[1];
+            return std::vector{p[3] * sin(p[2] * atan(p[0] * z)), -p[1] * x[1]};
+        });
+    auto const model = bind(recorded, {support::all_constants(4), {}}, {});
+    auto const curves = find_curves(model);
+    REQUIRE(curves.size() == 1);
+    auto const& own = curves[0].parameters;
+    auto const g = map_of(model.g, curves[0]);
+    CHECK(g.arguments() == own.size() + 1);
+    auto const of = [](auto const& z, auto const& q) {
+        return [&z, &q](std::size_t i) { return i == 0 ? z : q[i - 1]; };
+    };
+    std::vector<double> const all{2, 3, 1.4, 5};
+    std::vector<double> p;
+    for (auto const j : own) p.push_back(all[j]);
+    double const factor = own.size() == 3 ? all[3] : 1;
+    for (double const z : {-0.7, 0.0, 0.2, 3.0}) {
+        auto const value = g.at<approximate_arithmetic>(of(z, p));
+        REQUIRE(value);
+        CHECK(std::abs(value->front() - factor * std::sin(1.4 * std::atan(2 * z))) <
+              1e-14 * factor);
+    }
+    auto const rooted =
+        support::model_of({1, 1, 0}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            using std::sqrt;
+            return std::vector{sqrt(p[0] - x[0])};
+        });
+    auto const root = bind(rooted, {support::all_constants(1), {}}, {});
+    auto const h = map_of(root.g, find_curves(root).at(0));
+    CHECK_FALSE(h.over({interval(2.0, 3.0), interval(1.0)}));
+    CHECK(h.over({interval(-3.0, 0.5), interval(1.0)}));
 }

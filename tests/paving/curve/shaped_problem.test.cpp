@@ -16,12 +16,9 @@ using support::draws;
 
 TEST_CASE("no parameter that explains the data is lost by shapes") {
     std::size_t tried = 0, contracted = 0;
-    for (std::uint64_t seed = 1; seed <= support::swept(8U, 200U); ++seed) {
-        draws d(seed);
-        auto const p = support::plant_curve(d, d.coin());
-        CAPTURE(seed);
+    support::each_planted_curve(support::swept(8U, 200U), [&](auto const& p, draws& d) {
         auto shaped = shaped_problem::of(p.problem);
-        if (!shaped) continue;
+        if (!shaped) return;
         ++tried;
         CHECK(subset(p.problem.prior, shaped->parameters()));
         for (double const negligible : {1e-3, 1e-5, 1e-7}) {
@@ -44,7 +41,7 @@ TEST_CASE("no parameter that explains the data is lost by shapes") {
             REQUIRE(contains(shaped->parameters(), p.truth));
         }
         contracted += relative_volume(shaped->parameters(), p.problem.prior).upper() < 0.5 ? 1 : 0;
-    }
+    });
     CHECK(tried >= support::swept(8U, 200U) / 2);
     CHECK(contracted > tried / 4);
 }

@@ -53,8 +53,7 @@ SIVID_DECL identification identify_remembering(identification_problem const& bas
     auto found = effect_hulls(base, effects, options);
     bool const none = found.parameters.size() == 0 || is_empty(found.parameters);
     if (none) {
-        result.hull =
-            box(std::vector<interval>(problem.prior.size(), interval_traits<interval>::empty()));
+        result.hull = empty_box(problem.prior.size());
     } else {
         result.hull = intersect(found.parameters, problem.prior);
         result.paving.add(result.hull, box_verdict::pending);

@@ -253,7 +253,7 @@ SIVID_DECL identification_state parse_checkpoint(std::string_view text, std::str
     in.end();
     auto const sides = state.search.prior.size();
     if (state.windows && state.windows->rest.size() == 0) { // nothing was left
-        state.windows->rest = box(std::vector<interval>(sides, interval_traits<interval>::empty()));
+        state.windows->rest = empty_box(sides);
     }
     if (state.windows && state.windows->rest.size() != sides) in.damaged();
     try {

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -31,19 +32,36 @@ public:
         }
         program_ = program(g_, values_);
     }
+    /// @param values  in a graph whose only leaves but literals are constants: the arguments
+    recorded_map(std::size_t arguments, graph g, std::vector<node_id> values)
+        : arguments_(arguments),
+          g_(std::move(g)),
+          values_(std::move(values)),
+          program_(g_, values_) {}
 
     [[nodiscard]] std::size_t arguments() const { return arguments_; }
     [[nodiscard]] std::size_t values() const { return values_.size(); }
 
+    /// The values in any arithmetic; nothing where one is not defined.
+    /// @param argument  (index) -> its value
+    template <class A, class Argument>
+    [[nodiscard]] std::optional<std::vector<typename A::value_type>>
+    at(Argument const& argument) const {
+        auto memory = program_.template memory<A>();
+        program_.read(memory, [&argument](operation, std::size_t i) -> decltype(auto) {
+            return argument(i);
+        });
+        if (program_.template run<A>(memory)) return std::nullopt;
+        std::vector<typename A::value_type> result;
+        for (auto const i : values_) result.push_back(memory[i]);
+        return result;
+    }
     /// A box that contains all values over x; nothing where one is not defined on all of x.
     [[nodiscard]] std::optional<box> over(box const& x) const {
         require(x.size());
-        auto value = program_.memory<proven_arithmetic<interval>>();
-        program_.read(value, [&x](operation, std::size_t i) { return x[i]; });
-        if (program_.run<proven_arithmetic<interval>>(value)) return std::nullopt;
-        box result(values_.size());
-        for (std::size_t i = 0; i < values_.size(); ++i) result[i] = value[values_[i]];
-        return result;
+        auto values = at<proven_arithmetic<interval>>([&x](std::size_t i) { return x[i]; });
+        if (!values) return std::nullopt;
+        return box(*std::move(values));
     }
 
     /// The values as expressions in `to`, of arguments that live there.

@@ -39,12 +39,12 @@ SIVID_DECL interval effect_parameter::prior() const {
 SIVID_DECL effect model_detail::seen_effect(model_description const& about,
                                             std::vector<effect> const& beside, int order) {
     effect seen;
-    seen.name = "seen";
     seen.order = order;
-    auto const taken = [&seen](auto const& item) { return item.name == seen.name; };
-    while (std::any_of(beside.begin(), beside.end(), taken) ||
-           std::any_of(about.inputs.begin(), about.inputs.end(), taken))
-        seen.name += "'";
+    seen.name = model_detail::unused_name("seen", [&](std::string const& name) {
+        auto const has = [&name](auto const& item) { return item.name == name; };
+        return std::any_of(beside.begin(), beside.end(), has) ||
+               std::any_of(about.inputs.begin(), about.inputs.end(), has);
+    });
     seen.on_inputs = [about, name = seen.name](effect_scope& m) {
         auto const show = [&](std::string const& what, expression const& value) {
             (void)m.add_state(name + " " + what, "1", 1, expression(0));

@@ -5,6 +5,7 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/graph/operation.hpp>
+#include <sivid/model/graph/recorded_map.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 
 #include <algorithm>
@@ -199,6 +200,20 @@ private:
 /// @cost   O(nodes times parameters)
 [[nodiscard]] inline std::vector<unknown_curve> find_curves(bound_model const& model) {
     return model_detail::curve_finder(model)();
+}
+
+/// A curve as a function of its argument and, behind it, its parameters.
+[[nodiscard]] inline recorded_map map_of(graph const& from, unknown_curve const& curve) {
+    graph g;
+    auto const& own = curve.parameters;
+    auto const parameter = [&own](node const& n, graph& to) {
+        auto const at = std::lower_bound(own.begin(), own.end(), static_cast<std::size_t>(n.index));
+        return to.leaf(operation::constant, 1 + static_cast<std::size_t>(at - own.begin()));
+    };
+    auto const z = [](node_id, node_id, graph& to) { return to.leaf(operation::constant, 0); };
+    auto values = copy_into(g, from, {curve.value}, parameter, same_operation{},
+                            {{curve.argument, std::nullopt}}, z);
+    return {1 + own.size(), std::move(g), std::move(values)};
 }
 
 } // namespace sivid

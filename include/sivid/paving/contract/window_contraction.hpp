@@ -9,6 +9,7 @@
 #include <sivid/paving/run_options.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -66,6 +67,18 @@ struct window_contraction {
 
     [[nodiscard]] bool empty() const { return is_empty(rest); }
 };
+
+/// One contraction after the other.
+[[nodiscard]] inline window_contraction joined(window_contraction const& first,
+                                               window_contraction then) {
+    then.rounds += first.rounds;
+    then.windows += first.windows;
+    then.longest = std::max(first.longest, then.longest);
+    then.seconds += first.seconds;
+    then.integrations += first.integrations;
+    then.input_period = std::max(first.input_period, then.input_period);
+    return then;
+}
 
 /// Contracts a prior over which no trajectory can be carried along the whole record.
 ///   A record becomes windows as long as the prior carries: the first begins where the experiment

@@ -4,9 +4,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph/recorded_map.hpp>
 #include <sivid/model/structure/unknown_curve.hpp>
 #include <sivid/paving/curve/curve_shapes.hpp>
-#include <sivid/paving/curve/detail/curve_program.hpp>
 #include <sivid/paving/curve/detail/parallelepiped.hpp>
 #include <sivid/space/box.hpp>
 
@@ -77,7 +77,7 @@ private:
     }
 
     unknown_curve curve_;
-    paving_detail::curve_program g_;
+    recorded_map g_;
     interval range_;
     box prior_, parameters_;
     std::vector<paving_detail::parallelepiped> cells_;

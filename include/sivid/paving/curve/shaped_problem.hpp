@@ -4,6 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/structure/unknown_curve.hpp>
 #include <sivid/paving/curve/curve_family.hpp>
@@ -68,6 +69,9 @@ private:
         box coefficients{}; ///< what is left of them
         std::size_t parts = 1;
     };
+    /// Shapes stand for the curves, made of their arguments.
+    [[nodiscard]] SIVID_DECL stand_ins instead() const;
+
     bound_model model_;
     std::vector<experiment> experiments_;
     box parameters_;

@@ -110,7 +110,7 @@ private:
     using traits = interval_traits<interval>;
     auto const& about = problem.model.about;
     leaf_ranges result{traits::empty(), box(about.states.size()), problem.prior,
-                       box(std::vector<interval>(about.inputs.size(), traits::empty()))};
+                       empty_box(about.inputs.size())};
     for (std::size_t i = 0; i < about.states.size(); ++i) {
         result.states[i] = traits::bounds(-about.states[i].limit, about.states[i].limit);
     }

@@ -89,8 +89,7 @@ public:
     /// A box that contains every feasible parameter of the original problem: the hull of what the
     /// boxes of a result stand for.
     [[nodiscard]] box parameter_hull(identification const& found) const {
-        box result(
-            std::vector<interval>(original_.prior.size(), interval_traits<interval>::empty()));
+        box result = empty_box(original_.prior.size());
         for (auto const& b : found.paving.boxes()) {
             auto const left = intersect(b.set, found.hull);
             if (b.verdict == box_verdict::outside || is_empty(left)) continue;

@@ -72,7 +72,7 @@ public:
     }
     /// What contains them all; empty sides when there are none.
     [[nodiscard]] box hull() const {
-        box x(std::vector<interval>(sides_, interval_traits<interval>::empty()));
+        box x = empty_box(sides_);
         for (std::size_t j = 0; j < sides_ && count_ > 0; ++j) {
             double lo = lower(0, j), hi = upper(0, j);
             for (std::size_t i = 1; i < count_; ++i) {

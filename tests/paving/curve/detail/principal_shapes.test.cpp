@@ -56,3 +56,20 @@ TEST_CASE("principal directions tell small differences beside large ones") {
     CHECK(along(found.direction[1], second) > 1 - 1e-5);
     CHECK(along(found.direction[2], third) > 1 - 1e-9);
 }
+
+TEST_CASE("a sum of powers is the same in whole and in half steps") {
+    for (auto const& c : {std::vector<double>{1, 2, 3},
+                          {0, 2, 0, 3},
+                          {1, 0, 3, 0},
+                          {4},
+                          {0, 5},
+                          {0},
+                          {0, 0, 0},
+                          {1, 0}}) {
+        for (double const x : {-2.0, 0.0, 0.5}) {
+            double const sum = horner(
+                c, [&c](std::size_t k) { return c[k] == 0; }, x);
+            CHECK(sum == value_of(c, x));
+        }
+    }
+}

@@ -5,6 +5,7 @@
 #include "support/models.hpp"
 
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/structure/unknown_curve.hpp>
 
 #include <cmath>
 #include <vector>
@@ -18,7 +19,7 @@ TEST_CASE("shapes are chosen by what is visited, as many as move the curve") {
             return std::vector{p[1] * sin(p[0] * x[0])};
         });
     auto const model = bind(recorded, {support::all_constants(2), {}}, {});
-    paving_detail::curve_program const g(model.g, find_curves(model).at(0));
+    auto const g = map_of(model.g, find_curves(model).at(0));
     paving_detail::shape_choice const choose(
         g, {paving_detail::parallelepiped::of(box{interval(0.8, 1.2), interval(1.5, 2.5)})});
     interval const range(-1.0, 0.9);

@@ -24,20 +24,17 @@ identify_options of_one_thread() {
 
 TEST_CASE("windows over shapes lose no parameter that explains the data, and leave little") {
     std::size_t tried = 0, halved = 0;
-    for (std::uint64_t seed = 1; seed <= support::swept(10U, 300U); ++seed) {
-        draws d(seed);
-        auto const p = support::plant_curve(d, d.coin());
-        CAPTURE(seed);
+    support::each_planted_curve(support::swept(10U, 300U), [&](auto const& p, draws&) {
         auto const left =
             paving_detail::contract_by_shapes(p.problem, of_one_thread(), work_limit(5.0, nullptr));
-        if (!left) continue;
+        if (!left) return;
         ++tried;
         REQUIRE(left->starts.size() == p.problem.experiments.size());
         REQUIRE(contains(left->rest, p.truth));
         CHECK(subset(left->rest, p.problem.prior));
         CHECK(left->windows > 0);
         halved += relative_volume(left->rest, p.problem.prior).upper() < 0.5 ? 1 : 0;
-    }
+    });
     CHECK(tried > support::swept(10U, 300U) / 2);
     CHECK(halved > tried / 2);
 }

@@ -92,10 +92,6 @@ private:
     auto const& names = problem.choice.unknown;
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
-/// A box of empty sides, as one of all parameters that explain what nothing does.
-[[nodiscard]] inline box nothing_of(box const& whole) {
-    return box(std::vector<interval>(whole.size(), interval_traits<interval>::empty()));
-}
 
 } // namespace sivid
 

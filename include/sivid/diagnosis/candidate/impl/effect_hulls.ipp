@@ -69,7 +69,7 @@ private:
             auto const found = search_(*sliced.untouched, 1, of_untouched);
             auto const left = found ? explained_by(whole, sliced, prior, *sliced.untouched, *found)
                                     : std::nullopt;
-            if (!left) return {nothing_of(whole.prior)};
+            if (!left) return {empty_box(whole.prior.size())};
             prior = *left;
         }
         std::vector<slice> waiting{{prior, least_of_slice}};     // in the order of coming
@@ -185,7 +185,7 @@ private:
     }
     [[nodiscard]] static explained_hull or_nothing(explained_hull hulls,
                                                    identification_problem const& whole) {
-        if (hulls.parameters.size() == 0) return {nothing_of(whole.prior)};
+        if (hulls.parameters.size() == 0) return {empty_box(whole.prior.size())};
         return hulls;
     }
     /// The side of the first effect that is a lag.

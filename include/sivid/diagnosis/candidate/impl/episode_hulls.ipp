@@ -170,7 +170,7 @@ private:
             open |= moved;
             if (!moved || !search_.in_time()) continue;
             auto const left = left_of(known, none, of_onset_hull);
-            known.parameters = left ? left->parameters : nothing_of(whole_.prior);
+            known.parameters = left ? left->parameters : empty_box(whole_.prior.size());
             if (!left) return false;
         }
         return true;

@@ -76,9 +76,7 @@ private:
         double blur = 0; ///< the largest radius of an output against its bound
     };
 
-    void nothing_is_left() {
-        result_.rest = box(std::vector<interval>(result_.rest.size(), traits::empty()));
-    }
+    void nothing_is_left() { result_.rest = empty_box(result_.rest.size()); }
     [[nodiscard]] std::size_t states() const { return problem_->model.about.states.size(); }
     [[nodiscard]] double last_sample(std::size_t e) const { return records_[e].back().time; }
 

@@ -6,7 +6,6 @@
 #include <sivid/space/dense.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <cmath>
 #include <cstddef>
@@ -30,6 +29,7 @@ struct parallelepiped {
 
     std::vector<double> middle, slack;
     std::vector<std::vector<double>> side; ///< [k][j]
+    double volume = 1; ///< as a share of the box that it was, about: a preference
 
     /// Contains the box.
     [[nodiscard]] static parallelepiped of(box const& b) {
@@ -54,16 +54,6 @@ struct parallelepiped {
         }
         return box(std::move(result));
     }
-    /// As a share of what it was when sides were along axes, up to rounding: a preference.
-    [[nodiscard]] double volume() const {
-        Eigen::MatrixXd m(static_cast<Eigen::Index>(size()), static_cast<Eigen::Index>(size()));
-        for (std::size_t k = 0; k < size(); ++k) {
-            for (std::size_t j = 0; j < size(); ++j) {
-                m(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) = side[k][j];
-            }
-        }
-        return std::abs(m.determinant());
-    }
     /// The point at d, up to rounding.
     [[nodiscard]] std::vector<double> at(std::vector<double> const& d) const {
         auto p = middle;
@@ -75,6 +65,7 @@ struct parallelepiped {
     /// Two that cover it, each of half its side number k.
     [[nodiscard]] std::pair<parallelepiped, parallelepiped> halves(std::size_t k) const {
         auto lower = *this;
+        lower.volume *= 0.5;
         for (std::size_t j = 0; j < size(); ++j) {
             double const half = 0.5 * side[k][j];
             lower.side[k][j] = half;
@@ -106,7 +97,7 @@ struct parallelepiped {
         Eigen::MatrixXd rows(index(n), index(n));
         std::vector<interval> ranges;
         std::vector<std::vector<double>> across; // orthonormal
-        double volume = 1;
+        double left = 1;                         // of the volume
         for (std::size_t taken = 0; taken < n; ++taken) {
             double thinnest = HUGE_VAL;
             strip const* best = nullptr;
@@ -132,12 +123,12 @@ struct parallelepiped {
             for (std::size_t k = 0; k < n; ++k) rows(index(taken), index(k)) = best->slope[k];
             ranges.push_back(best->range);
             across.push_back(std::move(direction));
-            volume *= thinnest;
+            left *= thinnest;
         }
-        if (!(volume < 0.9)) return *this;
+        if (!(left < 0.9)) return *this;
         // d = X y - (X R - 1) d for y = R d
         Eigen::MatrixXd const x = approximate_inverse(rows);
-        parallelepiped result{middle, slack, side};
+        parallelepiped result{middle, slack, side, volume * left};
         for (std::size_t k = 0; k < n; ++k) {
             auto error = traits::point(0.0);
             for (std::size_t l = 0; l < n; ++l) {

@@ -58,8 +58,32 @@ inline std::vector<double> by_powers(std::vector<double> const& chebyshev, std::
     return result;
 }
 
+/// Sum of c_k x^k for any numbers, in half of the steps where only odd or only even powers stand.
+/// @param none  (k) -> whether c_k is 0
+template <class T, class None>
+[[nodiscard]] T horner(std::vector<T> const& c, None const& none, T const& x) {
+    auto const every = [&](std::size_t first) {
+        for (std::size_t k = first; k < c.size(); k += 2) {
+            if (!none(k)) return false;
+        }
+        return true;
+    };
+    bool const odd = every(0), even = !odd && every(1);
+    std::size_t const step = odd || even ? 2 : 1, low = odd ? 1 : 0;
+    if (c.size() <= low) return T(c.at(0));
+    auto const z = step == 2 ? x * x : x;
+    std::size_t k = low + (c.size() - 1 - low) / step * step;
+    T sum = c[k];
+    while (k > low) {
+        k -= step;
+        sum = sum * z + c[k];
+    }
+    return odd ? sum * x : sum;
+}
+
 /// Directions in which rows differ most, with how far (singular values), largest first: one-sided
-/// Jacobi, which tells small ones beside large ones.
+/// Jacobi, which tells small ones beside large ones. (Eigen's, with its preconditioner, would cost
+/// whoever includes this more than three seconds of compilation.)
 struct principal_directions {
     std::vector<double> size;
     std::vector<std::vector<double>> direction; ///< of unit length

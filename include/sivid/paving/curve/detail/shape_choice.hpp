@@ -3,8 +3,8 @@
 #define SIVID_PAVING_CURVE_DETAIL_SHAPE_CHOICE_HPP
 
 #include <sivid/model/graph/arithmetic.hpp>
+#include <sivid/model/graph/recorded_map.hpp>
 #include <sivid/paving/curve/curve_shapes.hpp>
-#include <sivid/paving/curve/detail/curve_program.hpp>
 #include <sivid/paving/curve/detail/parallelepiped.hpp>
 #include <sivid/paving/curve/detail/principal_shapes.hpp>
 #include <sivid/space/box.hpp>
@@ -18,10 +18,18 @@
 
 namespace sivid::paving_detail {
 
+/// g(z, p), about.
+[[nodiscard]] inline std::optional<double> curve_value(recorded_map const& g, double z,
+                                                       std::vector<double> const& p) {
+    auto const values =
+        g.at<approximate_arithmetic>([&](std::size_t i) { return i == 0 ? z : p[i - 1]; });
+    return values ? std::optional(values->front()) : std::nullopt;
+}
+
 /// Finds shapes in plain doubles; nothing of them is proved.
 class shape_choice {
 public:
-    shape_choice(curve_program const& g, std::vector<parallelepiped> const& cells) : g_(&g) {
+    shape_choice(recorded_map const& g, std::vector<parallelepiped> const& cells) : g_(&g) {
         for (auto const& cell : cells) {
             auto const n = cell.size();
             samples_.push_back(cell.middle);
@@ -111,7 +119,7 @@ private:
                                                                std::vector<double> const& p) const {
         std::vector<double> result;
         for (double const at : z) {
-            auto const value = g_->at<approximate_arithmetic>(at, p);
+            auto const value = curve_value(*g_, at, p);
             if (!value || !std::isfinite(*value)) return std::nullopt;
             result.push_back(*value);
         }
@@ -145,7 +153,7 @@ private:
         return degree;
     }
 
-    curve_program const* g_;
+    recorded_map const* g_;
     std::vector<std::vector<double>> samples_; ///< of parameters
 };
 

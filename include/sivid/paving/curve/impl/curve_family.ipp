@@ -29,7 +29,7 @@ public:
     using model = taylor_model<double>;
 
     /// @param shape  in the unknowns of the cell, and perhaps further ones
-    curve_over_cell(curve_program const& g, parallelepiped const& cell,
+    curve_over_cell(recorded_map const& g, parallelepiped const& cell,
                     model_shape<double> const& shape)
         : g_(&g), shape_(&shape) {
         for (std::size_t j = 0; j < cell.size(); ++j) {
@@ -43,7 +43,10 @@ public:
     }
 
     [[nodiscard]] std::optional<model> at(model const& z) const {
-        return g_->at<arithmetic>(z, p_);
+        auto values = g_->at<arithmetic>(
+            [&](std::size_t i) -> model const& { return i == 0 ? z : p_[i - 1]; });
+        if (!values) return std::nullopt;
+        return std::move(values->front());
     }
     [[nodiscard]] std::vector<model> const& parameters() const { return p_; }
     [[nodiscard]] std::optional<std::vector<model>> coefficients(curve_shapes const& s) const {
@@ -79,28 +82,17 @@ public:
     }
 
 private:
-    curve_program const* g_;
+    recorded_map const* g_;
     model_shape<double> const* shape_;
     std::vector<model> p_;
 };
 
 inline taylor_model<double> polynomial_of(std::vector<double> const& c,
                                           taylor_model<double> const& x) {
-    using model = taylor_model<double>;
-    auto const every = [&c](std::size_t first) { // only even, or only odd powers
-        for (std::size_t k = first; k < c.size(); k += 2) {
-            if (c[k] != 0) return false;
-        }
-        return true;
-    };
-    bool const odd = every(0), even = every(1);
-    auto const z = odd || even ? x * x : x;
-    std::size_t const step = odd || even ? 2 : 1, low = odd ? 1 : 0;
-    auto sum = model::constant(0.0);
-    for (std::size_t k = c.size(); k-- > 0;) {
-        if (k % step == low % step) sum = sum * z + model::constant(c[k]);
-    }
-    return odd ? sum * x : sum;
+    std::vector<taylor_model<double>> terms;
+    for (double const k : c) terms.push_back(taylor_model<double>::constant(k));
+    return horner(
+        terms, [&c](std::size_t k) { return c[k] == 0; }, x);
 }
 
 /// Part number k of a side.
@@ -119,7 +111,7 @@ inline interval piece_of(interval const& side, std::size_t k, std::size_t parts)
 
 SIVID_DECL curve_family::curve_family(bound_model const& model, unknown_curve const& curve,
                                       box const& prior, interval const& range)
-    : curve_(curve), g_(model.g, curve), range_(range), prior_(curve.parameters.size()) {
+    : curve_(curve), g_(map_of(model.g, curve)), range_(range), prior_(curve.parameters.size()) {
     for (std::size_t j = 0; j < prior_.size(); ++j) prior_[j] = prior[curve.parameters[j]];
     parameters_ = prior_;
     auto const n = prior_.size();
@@ -154,7 +146,7 @@ SIVID_DECL bool curve_family::is_bent(std::size_t j) const {
         for (int k = 0; k < 3; ++k) {
             auto at = p;
             at[j] += (k - 1) * rad(prior_[j]);
-            values[k] = g_.at<approximate_arithmetic>(z, at).value_or(HUGE_VAL);
+            values[k] = paving_detail::curve_value(g_, z, at).value_or(HUGE_VAL);
         }
         double const bend = std::abs(values[0] - 2 * values[1] + values[2]);
         if (!(bend <= 1e-9 * std::abs(values[1]))) return true;
@@ -190,7 +182,7 @@ curve_family::shapes(std::vector<double> const& visited, double negligible,
         for (auto const& s : result->shapes) here.push_back(polynomial_of(s, x));
         arguments.push_back(std::move(z));
     }
-    result->coefficients = box(std::vector<interval>(result->count(), traits::empty()));
+    result->coefficients = empty_box(result->count());
     double size = 0;
     for (double const v : result->middles) size = std::max(size, std::abs(v));
     for (auto const& cell : cells_) {
@@ -247,14 +239,14 @@ curve_family::contracted(paving_detail::parallelepiped cell, curve_shapes const&
         }
         auto less = cell.within(std::move(strips));
         if (!less) return std::nullopt;
-        again = less->volume() < 0.5 * cell.volume();
+        again = less->volume < 0.5 * cell.volume;
         cell = *std::move(less);
     }
     return cell;
 }
 
 SIVID_DECL bool curve_family::measure() {
-    box whole(std::vector<interval>(prior_.size(), interval_traits<interval>::empty()));
+    box whole = empty_box(prior_.size());
     for (auto const& cell : cells_) whole = hull(whole, cell.hull());
     parameters_ = cells_.empty() ? whole : intersect(parameters_, whole);
     return !is_empty(parameters_);
@@ -308,7 +300,7 @@ SIVID_DECL std::vector<box> curve_family::parts(curve_shapes const& shapes, std:
               [along](auto const& a, auto const& b) { return a.middle[along] < b.middle[along]; });
     std::vector<box> result;
     for (std::size_t part = 0; part < count; ++part) {
-        box theta(std::vector<interval>(shapes.count(), traits::empty()));
+        box theta = empty_box(shapes.count());
         for (auto i = part_begin(part, count); i < part_begin(part + 1, count); ++i) {
             auto const own =
                 paving_detail::curve_over_cell(g_, cells_[i], model_shape<double>::of(n, 4))

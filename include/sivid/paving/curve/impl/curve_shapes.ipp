@@ -4,38 +4,26 @@
 
 #include <sivid/paving/curve/curve_shapes.hpp>
 
+#include <sivid/model/expression.hpp>
+#include <sivid/paving/curve/detail/principal_shapes.hpp>
+
 #include <cstddef>
 #include <vector>
 
 namespace sivid {
 
 SIVID_DECL node_id curve_shapes::in(graph& g, node_id z, std::vector<node_id> const& theta) const {
-    auto const x = g.binary(operation::mul, g.binary(operation::sub, z, g.constant(centre)),
-                            g.constant(scale));
-    std::vector<node_id> powers; // their coefficients
+    std::vector<expression> powers; // their coefficients
     for (std::size_t k = 0; k < mean.size(); ++k) {
-        auto sum = g.constant(mean[k]);
+        expression sum(g, g.constant(mean[k]));
         for (std::size_t j = 0; j < theta.size(); ++j) {
-            if (shapes[j][k] == 0) continue;
-            sum = g.binary(operation::add, sum,
-                           g.binary(operation::mul, g.constant(shapes[j][k]), theta[j]));
+            if (shapes[j][k] != 0) sum = sum + shapes[j][k] * expression(g, theta[j]);
         }
         powers.push_back(sum);
     }
-    auto const none = [&](std::size_t first) {
-        for (std::size_t k = first; k < powers.size(); k += 2) {
-            if (!g.is(powers[k], 0)) return false;
-        }
-        return true;
-    };
-    bool const odd = none(0), even = none(1);
-    auto const step = odd || even ? g.unary(operation::sqr, x) : x;
-    auto sum = g.constant(0.0);
-    for (std::size_t k = powers.size(); k-- > 0;) {
-        if ((odd && k % 2 == 0) || (even && k % 2 == 1)) continue;
-        sum = g.binary(operation::add, g.binary(operation::mul, sum, step), powers[k]);
-    }
-    return odd ? g.binary(operation::mul, sum, x) : sum;
+    auto const x = (expression(g, z) - centre) * scale;
+    auto const none = [&](std::size_t k) { return g.is(powers[k].in(g), 0); };
+    return paving_detail::horner(powers, none, x).in(g);
 }
 
 } // namespace sivid

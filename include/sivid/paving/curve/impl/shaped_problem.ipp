@@ -54,70 +54,6 @@ struct visited_arguments {
     }
 };
 
-/// Copies equations with curves in shapes.
-class shaped_copy {
-public:
-    /// @param values  of the curves
-    shaped_copy(bound_model const& from, std::vector<unknown_curve const*> curves)
-        : from_(from), curves_(std::move(curves)), image_(from.g.size()) {}
-
-    /// What the equations need beside curves' values.
-    [[nodiscard]] std::vector<bool> outside_curves() const {
-        std::vector<bool> marked(from_.g.size(), false);
-        std::vector<node_id> open(from_.rate);
-        open.insert(open.end(), from_.observe.begin(), from_.observe.end());
-        while (!open.empty()) {
-            auto const i = open.back();
-            open.pop_back();
-            if (marked[i]) continue;
-            marked[i] = true;
-            auto const& n = from_.g[i];
-            if (auto const c = curve_at(i)) {
-                open.push_back(curves_[*c]->argument);
-            } else if (!is_leaf(n.op)) {
-                open.push_back(n.a);
-                if (is_binary(n.op)) open.push_back(n.b);
-            }
-        }
-        return marked;
-    }
-    /// @param constant  (parameter) -> its place among the constants
-    /// @param shape     (curve, its argument) -> what stands for it
-    template <class Constant, class Shape>
-    node_id operator()(graph& g, node_id i, Constant const& constant, Shape const& shape) {
-        if (image_[i]) return *image_[i];
-        auto const& n = from_.g[i];
-        node_id made = 0;
-        if (auto const c = curve_at(i)) {
-            made = shape(*c, (*this)(g, curves_[*c]->argument, constant, shape));
-        } else if (n.op == operation::literal) {
-            made = g.constant(from_.g.value(n));
-        } else if (n.op == operation::constant) {
-            made = g.leaf(n.op, constant(static_cast<std::size_t>(n.index)));
-        } else if (is_leaf(n.op)) {
-            made = g.leaf(n.op, static_cast<std::size_t>(n.index));
-        } else {
-            auto const a = (*this)(g, n.a, constant, shape);
-            auto const b = is_binary(n.op) ? (*this)(g, n.b, constant, shape) : node_id{};
-            made = same_operation{}(n, a, b, g);
-        }
-        image_[i] = made;
-        return made;
-    }
-
-private:
-    [[nodiscard]] std::optional<std::size_t> curve_at(node_id i) const {
-        for (std::size_t c = 0; c < curves_.size(); ++c) {
-            if (curves_[c]->value == i) return c;
-        }
-        return std::nullopt;
-    }
-
-    bound_model const& from_;
-    std::vector<unknown_curve const*> curves_;
-    std::vector<std::optional<node_id>> image_;
-};
-
 } // namespace paving_detail
 
 SIVID_DECL std::optional<shaped_problem>
@@ -145,14 +81,21 @@ shaped_problem::of(identification_problem const& problem, std::function<bool()> 
     if (result.curves_.empty()) return std::nullopt;
     result.experiments_ = problem.experiments;
     result.parameters_ = problem.prior;
-    std::vector<unknown_curve const*> list;
-    for (auto const& c : result.curves_) list.push_back(&c.family.curve());
-    auto const marked = paving_detail::shaped_copy(model, list).outside_curves();
+    auto outputs = model.rate;
+    outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
+    auto const needed = operands_of(model.g, outputs, result.instead());
     for (std::size_t k = 0; k < model.g.size(); ++k) {
         auto const& n = model.g.nodes()[k];
-        if (marked[k] && n.op == operation::constant)
+        if (needed[k] && n.op == operation::constant) {
             result.kept_.push_back(static_cast<std::size_t>(n.index));
+        }
     }
+    return result;
+}
+
+SIVID_DECL stand_ins shaped_problem::instead() const {
+    stand_ins result;
+    for (auto const& c : curves_) result[c.family.curve().value] = c.family.curve().argument;
     return result;
 }
 
@@ -178,8 +121,7 @@ SIVID_DECL identification_problem shaped_problem::posed() const {
         prior.push_back(parameters_[j]);
     }
     result.experiments = experiments_;
-    std::vector<unknown_curve const*> list;
-    std::vector<std::size_t> first, count;
+    std::vector<std::size_t> first;                      // coefficient of each curve
     auto const taken = [this](std::string const& name) { // by the user's own
         auto const called = [&name](auto const& item) { return item.name == name; };
         auto const& own = model_.about;
@@ -187,12 +129,12 @@ SIVID_DECL identification_problem shaped_problem::posed() const {
                std::any_of(own.inputs.begin(), own.inputs.end(), called);
     };
     for (auto const& c : curves_) {
-        auto name = "curve " + std::to_string(list.size() + 1);
-        while (taken("rest of " + name) || taken(name + " shape 1")) name += "'";
-        list.push_back(&c.family.curve());
+        auto const name = model_detail::unused_name(
+            "curve " + std::to_string(first.size() + 1), [&taken](std::string const& n) {
+                return taken("rest of " + n) || taken(n + " shape 1");
+            });
         first.push_back(prior.size());
-        count.push_back(c.shapes.count());
-        for (std::size_t j = 0; j < count.back(); ++j) {
+        for (std::size_t j = 0; j < c.shapes.count(); ++j) {
             about.constants.push_back(
                 {name + " shape " + std::to_string(j + 1), "1", literal{interval(0.0), 0.0}});
             prior.push_back(c.coefficients[j]);
@@ -205,22 +147,29 @@ SIVID_DECL identification_problem shaped_problem::posed() const {
     }
     for (auto const& c : about.constants) result.choice.unknown.push_back(c.name);
     result.prior = box(std::move(prior));
-    auto& g = model.g;
-    auto const constant = [&](std::size_t j) {
-        auto const at = std::lower_bound(kept_.begin(), kept_.end(), j);
-        return static_cast<std::size_t>(at - kept_.begin());
+    auto const leaf = [this](node const& n, graph& to) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (n.op != operation::constant) return to.leaf(n.op, k);
+        auto const at = std::lower_bound(kept_.begin(), kept_.end(), k);
+        return to.leaf(n.op, static_cast<std::size_t>(at - kept_.begin()));
     };
-    auto const shape = [&](std::size_t c, node_id z) {
+    auto const shape = [&](node_id value, node_id z, graph& to) {
+        std::size_t c = 0;
+        while (curves_[c].family.curve().value != value) ++c;
         std::vector<node_id> theta;
-        for (std::size_t j = 0; j < count[c]; ++j) {
-            theta.push_back(g.leaf(operation::constant, first[c] + j));
+        for (std::size_t j = 0; j < curves_[c].shapes.count(); ++j) {
+            theta.push_back(to.leaf(operation::constant, first[c] + j));
         }
-        auto const rest = g.leaf(operation::input, model_.about.inputs.size() + c);
-        return g.binary(operation::add, curves_[c].shapes.in(g, z, theta), rest);
+        auto const rest = to.leaf(operation::input, model_.about.inputs.size() + c);
+        return to.binary(operation::add, curves_[c].shapes.in(to, z, theta), rest);
     };
-    paving_detail::shaped_copy copy(model_, list);
-    for (auto const i : model_.rate) model.rate.push_back(copy(g, i, constant, shape));
-    for (auto const i : model_.observe) model.observe.push_back(copy(g, i, constant, shape));
+    auto outputs = model_.rate;
+    outputs.insert(outputs.end(), model_.observe.begin(), model_.observe.end());
+    auto const images =
+        copy_into(model.g, model_.g, outputs, leaf, same_operation{}, instead(), shape);
+    auto const rates = images.begin() + static_cast<std::ptrdiff_t>(model_.rate.size());
+    model.rate.assign(images.begin(), rates);
+    model.observe.assign(rates, images.end());
     return result;
 }
 
@@ -277,15 +226,13 @@ SIVID_DECL std::vector<box> shaped_problem::parts(std::size_t most) {
 }
 
 SIVID_DECL bool shaped_problem::take_parts(std::vector<box> const& left) {
-    using traits = interval_traits<interval>;
-    auto const none = [](std::size_t n) { return box(std::vector<interval>(n, traits::empty())); };
-    box whole = none(left.empty() ? 0 : left[0].size());
+    box whole = empty_box(left.empty() ? 0 : left[0].size());
     for (auto const& part : left) whole = hull(whole, part);
     if (is_empty(whole)) return false;
     take(whole);
     std::size_t first = kept_.size(), step = 1;
     for (auto& c : curves_) {
-        std::vector<box> own(c.parts, none(c.coefficients.size()));
+        std::vector<box> own(c.parts, empty_box(c.coefficients.size()));
         for (std::size_t k = 0; k < left.size(); ++k) {
             if (is_empty(left[k])) continue;
             box theta(c.coefficients.size());

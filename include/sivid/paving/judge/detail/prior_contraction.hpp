@@ -54,17 +54,6 @@ inline identification_problem narrowed_by(window_contraction const& windows,
     return problem;
 }
 
-/// One contraction after the other.
-inline window_contraction joined(window_contraction const& first, window_contraction then) {
-    then.rounds += first.rounds;
-    then.windows += first.windows;
-    then.longest = std::max(first.longest, then.longest);
-    then.seconds += first.seconds;
-    then.integrations += first.integrations;
-    then.input_period = std::max(first.input_period, then.input_period);
-    return then;
-}
-
 /// The time between two samples of the fastest input with a thousand of them or more; 0: none.
 inline double sample_period(identification_problem const& problem) {
     double least = HUGE_VAL;

@@ -23,9 +23,7 @@ namespace sivid {
                                                relation_contraction_options const& options) {
     box rest = problem.prior;
     if (rest.size() == 0) return rest;
-    auto const empty = [&] {
-        return box(std::vector<interval>(rest.size(), interval_traits<interval>::empty()));
-    };
+    auto const empty = [&] { return empty_box(rest.size()); };
     relation_test const between_samples(problem, options);
     observer_contraction along(problem, {.keep_going = options.keep_going});
     for (bool gains = true; gains && (!options.keep_going || options.keep_going());) {

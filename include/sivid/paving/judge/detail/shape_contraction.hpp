@@ -10,7 +10,6 @@
 #include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box.hpp>
 
-#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -29,11 +28,10 @@ public:
     shape_contractor(shaped_problem& shaped, identify_options const& options,
                      work_limit const& limit)
         : shaped_(&shaped), options_(&options), limit_(&limit) {
-        result_.starts = shaped.starts();
+        found_.starts = shaped.starts();
     }
 
     [[nodiscard]] window_contraction operator()() {
-        using traits = interval_traits<interval>;
         auto const posed = shaped_->parameters();
         auto const& run = options_->test.run;
         bool left = true;
@@ -46,7 +44,7 @@ public:
             if (!shaped_->shape(1e-8, *limit_)) break;
             left = windows({.run = run,
                             .seconds = 0.5 * limit_->seconds(),
-                            .first = 1.5 * result_.longest,
+                            .first = 1.5 * found_.longest,
                             .chained = 1,
                             .share = fine,
                             .gain = 0.1,
@@ -57,9 +55,9 @@ public:
             if (!(now < 0.95 * before)) break;
             before = now;
         }
-        result_.rest = left ? shaped_->parameters()
-                            : box(std::vector<interval>(posed.size(), traits::empty()));
-        return std::move(result_);
+        found_.rest = left ? shaped_->parameters() : empty_box(posed.size());
+        found_.responses.clear();
+        return std::move(found_);
     }
 
 private:
@@ -70,14 +68,10 @@ private:
         how.keep_going = *limit_;
         how.workers = options_->search.workers;
         how.degree = 2; // what is of third order is small where shapes are linear
-        found_ = contract_by_windows(shaped_->posed(), how);
-        result_.rounds += found_.rounds;
-        result_.windows += found_.windows;
-        result_.longest = std::max(result_.longest, found_.longest);
+        found_ = joined(found_, contract_by_windows(shaped_->posed(), how));
         if (found_.empty()) return false;
         shaped_->take(found_.rest);
         shaped_->begin_in(found_.starts);
-        result_.starts = found_.starts;
         return true;
     }
     /// By what the last windows have told over all of them.
@@ -100,8 +94,7 @@ private:
     shaped_problem* shaped_;
     identify_options const* options_;
     work_limit const* limit_;
-    window_contraction found_;  ///< by the last windows
-    window_contraction result_; ///< all together
+    window_contraction found_; ///< rest and responses of the last windows
 };
 
 /// What windows leave of the prior with coefficients of shapes in place of constants of curves;

@@ -60,7 +60,7 @@ SIVID_DECL box observer_contraction::operator()(box x) {
                     double const low = e.lower ? std::max(side.lower(), inner[k]) : side.lower();
                     double const high = e.lower ? side.upper() : std::min(side.upper(), inner[k]);
                     if (!(low < high)) // both halves are refuted
-                        return box(std::vector<interval>(x.size(), traits::empty()));
+                        return empty_box(x.size());
                     x[e.side] = traits::bounds(low, high);
                     e.share = std::min(0.5, 2 * e.share);
                 } else {

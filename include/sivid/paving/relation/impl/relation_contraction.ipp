@@ -170,7 +170,7 @@ struct relation_findings {
 [[nodiscard]] inline relation_findings
 contract_by_windows(identification_problem narrowed, relation_contraction_options const& options) {
     auto& rest = narrowed.prior;
-    box const nothing(std::vector<interval>(rest.size(), interval_traits<interval>::empty()));
+    box const nothing = empty_box(rest.size());
     std::vector<double> smear;
     relation_options how;
     how.go_on = options.keep_going;
@@ -217,7 +217,7 @@ SIVID_DECL box contract_by_relations(identification_problem const& problem,
     if (problem.model.has_memory() || problem.prior.size() == 0) return problem.prior;
     auto const found = relation_test(problem, options)(problem.prior);
     if (found.verdict != box_verdict::outside) return found.rest;
-    return box(std::vector<interval>(problem.prior.size(), interval_traits<interval>::empty()));
+    return empty_box(problem.prior.size());
 }
 
 } // namespace sivid
