@@ -243,7 +243,7 @@ TEST_CASE("one contraction after another says which of them saw slower inputs") 
     window_contraction equations, windows;
     windows.input_period = 0.01;
     windows.windows = 3;
-    CHECK(paving_detail::joined(equations, windows).input_period == 0.01);
-    CHECK(paving_detail::joined(windows, equations).input_period == 0.01);
-    CHECK(paving_detail::joined(windows, windows).windows == 6);
+    CHECK(joined(equations, windows).input_period == 0.01);
+    CHECK(joined(windows, equations).input_period == 0.01);
+    CHECK(joined(windows, windows).windows == 6);
 }
