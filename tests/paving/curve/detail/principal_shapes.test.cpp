@@ -33,30 +33,6 @@ TEST_CASE("values at Chebyshev's nodes give the polynomial through them") {
     for (std::size_t k = 0; k < odd.size(); k += 2) CHECK(odd[k] == 0);
 }
 
-TEST_CASE("principal directions tell small differences beside large ones") {
-    std::vector<double> const first{0.6, 0.8, 0}, second{-0.8, 0.6, 0}, third{0, 0, 1};
-    std::vector<std::vector<double>> rows;
-    for (int k = 0; k < 20; ++k) {
-        double const a = std::cos(0.7 * k) * 1e3, b = std::sin(1.3 * k),
-                     c = 1e-7 * std::cos(2.1 * k);
-        std::vector<double> row;
-        for (std::size_t i = 0; i < 3; ++i)
-            row.push_back(a * first[i] + b * second[i] + c * third[i]);
-        rows.push_back(row);
-    }
-    principal_directions const found(rows);
-    REQUIRE(found.size.size() == 3);
-    CHECK(found.size[0] > 1e3);
-    CHECK(found.size[1] < 10);
-    CHECK((found.size[2] > 1e-8 && found.size[2] < 1e-6));
-    auto const along = [](std::vector<double> const& a, std::vector<double> const& b) {
-        return std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-    };
-    CHECK(along(found.direction[0], first) > 1 - 1e-5);
-    CHECK(along(found.direction[1], second) > 1 - 1e-5);
-    CHECK(along(found.direction[2], third) > 1 - 1e-9);
-}
-
 TEST_CASE("a sum of powers is the same in whole and in half steps") {
     for (auto const& c : {std::vector<double>{1, 2, 3},
                           {0, 2, 0, 3},

@@ -2,7 +2,8 @@
 #ifndef SIVID_APPROXIMATE_FIT_DETAIL_ARROW_SYSTEM_HPP
 #define SIVID_APPROXIMATE_FIT_DETAIL_ARROW_SYSTEM_HPP
 
-#include <Eigen/Cholesky>
+#include <sivid/space/dense.hpp>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -82,9 +83,8 @@ public:
             for (Eigen::Index i = 0; i < l; ++i) {
                 if (held.local[e][i] != 0) hold(own, z, i);
             }
-            factors_[e].compute(own);
-            if (factors_[e].info() != Eigen::Success) return false;
-            factors_[e].matrixL().solveInPlace(z);
+            if (!factors_[e].compute(own)) return false;
+            z = factors_[e].solve_lower(z);
             schur.selfadjointView<Eigen::Lower>().rankUpdate(z.leftCols(g).transpose(), -1.0);
             right -= z.leftCols(g).transpose() * z.col(g);
         }
@@ -100,8 +100,7 @@ public:
             right[i] = 0;
         }
         if (g > 0) {
-            top_.compute(schur);
-            if (top_.info() != Eigen::Success) return false;
+            if (!top_.compute(schur)) return false;
             x.global = top_.solve(right);
         } else {
             x.global.resize(0);
@@ -111,9 +110,8 @@ public:
             auto const l = matrices_[e].rows() - g;
             x.local[e].resize(l);
             if (l == 0) continue;
-            Eigen::VectorXd y = coupled_[e].col(g) - coupled_[e].leftCols(g) * x.global;
-            factors_[e].matrixU().solveInPlace(y);
-            x.local[e] = y;
+            x.local[e] =
+                factors_[e].solve_upper(coupled_[e].col(g) - coupled_[e].leftCols(g) * x.global);
             for (Eigen::Index i = 0; i < l; ++i) {
                 if (held.local[e][i] != 0) x.local[e][i] = 0;
             }
@@ -127,8 +125,7 @@ public:
         if (l == 0) return {};
         Eigen::MatrixXd inverse = factors_[e].solve(Eigen::MatrixXd::Identity(l, l));
         if (globals_ > 0) {
-            Eigen::MatrixXd spread = coupled_[e].leftCols(globals_);
-            factors_[e].matrixU().solveInPlace(spread);
+            auto const spread = factors_[e].solve_upper(coupled_[e].leftCols(globals_));
             inverse += spread * top_.solve(spread.transpose());
         }
         return inverse;
@@ -152,9 +149,9 @@ private:
     Eigen::Index globals_ = 0;
     std::vector<Eigen::MatrixXd> matrices_;
     std::vector<Eigen::VectorXd> sides_;
-    std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
+    std::vector<approximate_cholesky> factors_;
     std::vector<Eigen::MatrixXd> coupled_; ///< L^-1 (coupling, side)
-    Eigen::LLT<Eigen::MatrixXd> top_;
+    approximate_cholesky top_;
 };
 
 } // namespace sivid

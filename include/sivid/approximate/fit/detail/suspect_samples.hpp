@@ -3,8 +3,8 @@
 #define SIVID_APPROXIMATE_FIT_DETAIL_SUSPECT_SAMPLES_HPP
 
 #include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/space/dense.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -27,6 +27,7 @@ template <class Over>
                                                 std::vector<double> const& e, Over const& over) {
     std::vector<double> result(t.size(), 0.0);
     std::size_t const side = 4;
+    approximate_cholesky factor;
     if (t.size() < 2 * side) return result;
     for (std::size_t k = 0; k < t.size(); ++k) {
         if (k % 256 == 0 && over()) break;
@@ -48,7 +49,8 @@ template <class Over>
                 n += w * basis(i) * basis(i).transpose();
                 b += w * y[i] * basis(i);
             }
-            c = n.ldlt().solve(b);
+            if (!factor.compute(n)) break;
+            c = factor.solve(b);
             for (std::size_t i = first; i < last; ++i) {
                 double const r = std::abs(y[i] - basis(i).dot(c)) / e[i];
                 weight[i - first] = 1 / std::max(r, 0.3);

@@ -4,8 +4,8 @@
 
 #include <sivid/approximate/place/detail/law.hpp>
 #include <sivid/approximate/place/detail/place_fit.hpp>
+#include <sivid/space/dense.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -149,7 +149,7 @@ private:
             base_ += off * off / (half * half);
         }
         m.diagonal().array() += 1e-9;
-        factor_.compute(m);
+        static_cast<void>(factor_.compute(m));
     }
 
     /// Squares left when some columns with free factors come in.
@@ -181,13 +181,14 @@ private:
         Eigen::MatrixXd left = gram - b.transpose() * solved;
         Eigen::VectorXd const pull = slope - b.transpose() * rest;
         left.diagonal() += 1e-9 * gram.diagonal() + Eigen::VectorXd::Constant(n, 1e-300);
-        return without - pull.dot(left.ldlt().solve(pull));
+        approximate_cholesky own;
+        return own.compute(left) ? without - pull.dot(own.solve(pull).col(0)) : without;
     }
     template <class Column>
     [[nodiscard]] std::vector<ranked_law> rank(std::vector<law> const& laws, law const* beside,
                                                Column const& column_of) {
         std::vector<ranked_law> result;
-        if (factor_.info() != Eigen::Success) return result;
+        if (!factor_.computed()) return result;
         double const without = squares_with({});
         double whole = 0; // with the free missing rates
         for (std::size_t e = 0; e < residuals_.size(); ++e) {
@@ -231,7 +232,7 @@ private:
     std::vector<Eigen::Index> locals_;
     std::vector<std::vector<Eigen::Index>> kept_columns_;
     Eigen::VectorXd side_;
-    Eigen::LLT<Eigen::MatrixXd> factor_;
+    approximate_cholesky factor_;
 };
 
 } // namespace sivid

@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_CONTRACT_DETAIL_START_RULE_HPP
 #define SIVID_PAVING_CONTRACT_DETAIL_START_RULE_HPP
 
+#include <sivid/space/dense.hpp>
 #include <sivid/space/linear_program/minimax_lp.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -193,8 +193,7 @@ private:
         if (p_ == 0) return matrix(s_, 0);
         vector const weight = (margin_.array() < infinity).cast<double>();
         matrix const weighted = weight.asDiagonal() * b_;
-        matrix const normal = b_.transpose() * weighted;
-        return normal.ldlt().solve(-(weighted.transpose() * a_));
+        return approximate_least_squares(weighted, -(weight.asDiagonal() * a_));
     }
 
     /// Largest |f| over the box.

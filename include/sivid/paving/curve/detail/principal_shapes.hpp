@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -80,61 +79,6 @@ template <class T, class None>
     }
     return odd ? sum * x : sum;
 }
-
-/// Directions in which rows differ most, with how far (singular values), largest first: one-sided
-/// Jacobi, which tells small ones beside large ones. (Eigen's, with its preconditioner, would cost
-/// whoever includes this more than three seconds of compilation.)
-struct principal_directions {
-    std::vector<double> size;
-    std::vector<std::vector<double>> direction; ///< of unit length
-
-    explicit principal_directions(std::vector<std::vector<double>> const& rows) {
-        auto const n = rows.empty() ? 0 : rows[0].size();
-        std::vector<std::vector<double>> a(n, std::vector<double>(rows.size())), v(n);
-        for (std::size_t j = 0; j < n; ++j) {
-            for (std::size_t k = 0; k < rows.size(); ++k) a[j][k] = rows[k][j];
-            v[j].assign(n, 0.0);
-            v[j][j] = 1;
-        }
-        auto const dot = [](std::vector<double> const& x, std::vector<double> const& y) {
-            return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
-        };
-        auto const turn = [](std::vector<double>& x, std::vector<double>& y, double c, double s) {
-            for (std::size_t k = 0; k < x.size(); ++k) {
-                double const old = x[k];
-                x[k] = c * old - s * y[k];
-                y[k] = s * old + c * y[k];
-            }
-        };
-        bool turned = true;
-        for (int sweep = 0; sweep < 30 && turned; ++sweep) {
-            turned = false;
-            for (std::size_t i = 0; i < n; ++i) {
-                for (std::size_t j = i + 1; j < n; ++j) {
-                    double const p = dot(a[i], a[j]), x = dot(a[i], a[i]), y = dot(a[j], a[j]);
-                    if (!(std::abs(p) > 1e-15 * std::sqrt(x * y))) continue;
-                    double const zeta = (y - x) / (2 * p);
-                    double const t =
-                        (zeta < 0 ? -1.0 : 1.0) / (std::abs(zeta) + std::hypot(1.0, zeta));
-                    double const c = 1 / std::hypot(1.0, t);
-                    turn(a[i], a[j], c, c * t);
-                    turn(v[i], v[j], c, c * t);
-                    turned = true;
-                }
-            }
-        }
-        std::vector<std::size_t> order(n);
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::vector<double> norm;
-        for (auto const& column : a) norm.push_back(std::sqrt(dot(column, column)));
-        std::sort(order.begin(), order.end(),
-                  [&](std::size_t i, std::size_t j) { return norm[i] > norm[j]; });
-        for (auto const j : order) {
-            size.push_back(norm[j]);
-            direction.push_back(v[j]);
-        }
-    }
-};
 
 } // namespace sivid::paving_detail
 

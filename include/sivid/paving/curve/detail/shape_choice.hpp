@@ -8,6 +8,9 @@
 #include <sivid/paving/curve/detail/parallelepiped.hpp>
 #include <sivid/paving/curve/detail/principal_shapes.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/dense.hpp>
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -83,9 +86,14 @@ public:
         for (auto& row : rows) {
             for (std::size_t i = 0; i < n; ++i) row[i] = (row[i] - result.middles[i]) * weight[i];
         }
-        principal_directions const found(rows);
-        for (std::size_t j = 0; j < std::min(most_shapes, found.size.size()); ++j) {
-            auto const& v = found.direction[j];
+        Eigen::MatrixXd all(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(n));
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            all.row(static_cast<Eigen::Index>(k)) =
+                Eigen::Map<Eigen::RowVectorXd const>(rows[k].data(), static_cast<Eigen::Index>(n));
+        }
+        approximate_svd const found(all);
+        for (std::size_t j = 0; j < std::min(most_shapes, n); ++j) {
+            double const* const v = found.right.col(static_cast<Eigen::Index>(j)).data();
             double reach = 0;
             for (auto const& row : rows) {
                 double sum = 0;

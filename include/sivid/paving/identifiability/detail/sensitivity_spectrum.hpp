@@ -4,11 +4,10 @@
 
 #include <sivid/model/structure/symmetry.hpp>
 #include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
+#include <sivid/space/dense.hpp>
 #include <sivid/space/exact/detail/rational_basis.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +63,7 @@ public:
     }
 
     [[nodiscard]] std::size_t rank() const {
-        auto const s = decomposed(scaled(points_.front(), natural())).values;
+        auto const s = approximate_svd(scaled(points_.front(), natural())).values;
         double const least = threshold(s, natural());
         return static_cast<std::size_t>(
             std::count_if(s.begin(), s.end(), [least](double x) { return x > least; }));
@@ -73,10 +72,10 @@ public:
     /// Of the first point, in the coordinates that suit each unknown.
     [[nodiscard]] std::vector<direction> directions() const {
         auto const m = scaled(points_.front(), natural());
-        auto const system = decomposed(m);
+        approximate_svd const system(m);
         std::vector<direction> result;
-        for (Eigen::Index k = 0; k < system.vectors.cols(); ++k) {
-            Eigen::VectorXd v = system.vectors.col(k);
+        for (Eigen::Index k = 0; k < system.right.cols(); ++k) {
+            Eigen::VectorXd v = system.right.col(k);
             Eigen::Index largest = 0;
             v.cwiseAbs().maxCoeff(&largest);
             v /= v(largest);
@@ -101,12 +100,12 @@ public:
                 all = std::move(both);
             }
             auto const chosen = selected(all, columns);
-            auto const system = decomposed(chosen);
+            approximate_svd const system(chosen);
             auto const& s = system.values;
             double const least = threshold(s, columns);
             std::vector<Eigen::VectorXd> space;
             for (Eigen::Index k = 0; k < chosen.cols(); ++k) {
-                if (s(k) <= least) space.push_back(system.vectors.col(k));
+                if (s(k) <= least) space.push_back(system.right.col(k));
             }
             for (auto& m : rounded(space, columns, kind, 1e-3)) {
                 m.noticed = noticed(all, crossing(m));
@@ -126,10 +125,10 @@ public:
             auto const columns = columns_of(kind);
             auto const m = scaled(points_.front(), columns);
             auto const chosen = selected(m, columns);
-            auto const system = decomposed(chosen);
+            approximate_svd const system(chosen);
             std::vector<Eigen::VectorXd> space;
             for (Eigen::Index k = 0; k < chosen.cols(); ++k) {
-                Eigen::VectorXd const v = system.vectors.col(k);
+                Eigen::VectorXd const v = system.right.col(k);
                 if (noticed(chosen, v / v.cwiseAbs().maxCoeff()) < 1) space.push_back(v);
             }
             for (auto& found : rounded(space, columns, kind, 0.1)) {
@@ -234,21 +233,6 @@ private:
         }
         return result.leftCols(used);
     }
-    struct singular_system {
-        Eigen::VectorXd values;
-        Eigen::MatrixXd vectors; ///< on the right, one column for each value
-    };
-    /// With all right singular vectors, whatever the number of rows; of no columns there are none.
-    [[nodiscard]] static singular_system decomposed(Eigen::MatrixXd m) {
-        if (m.cols() == 0) return {}; // Eigen crashes
-        if (m.rows() < m.cols()) {
-            auto const rows = m.rows();
-            m.conservativeResize(m.cols(), Eigen::NoChange);
-            m.bottomRows(m.rows() - rows).setZero();
-        }
-        Eigen::JacobiSVD<Eigen::MatrixXd> const svd(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
-        return {svd.singularValues(), svd.matrixV()};
-    }
     [[nodiscard]] static double noticed(Eigen::MatrixXd const& m, Eigen::VectorXd const& v) {
         return m.rows() == 0 ? 0.0 : (m * v).cwiseAbs().maxCoeff();
     }
@@ -306,8 +290,7 @@ private:
             span.col(static_cast<Eigen::Index>(k)) = velocity(others[k]);
         }
         auto const v = velocity(m);
-        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> const qr(span);
-        return (v - span * qr.solve(v)).norm() < tolerance;
+        return (v - span * approximate_least_squares(span, v)).norm() < tolerance;
     }
 
     std::vector<unknown_quantity> unknowns_;

@@ -2,10 +2,10 @@
 #ifndef SIVID_SPACE_EXACT_IMPL_CERTIFIED_RANK_IPP
 #define SIVID_SPACE_EXACT_IMPL_CERTIFIED_RANK_IPP
 
+#include <sivid/space/dense.hpp>
 #include <sivid/space/exact/detail/certified_rank.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -74,20 +74,20 @@ SIVID_DECL std::size_t certified_rank(interval_matrix<interval> const& a,
         centre.col(j) *= scale(j);
     }
     if (!centre.allFinite()) return 0;
-    Eigen::JacobiSVD<Eigen::MatrixXd> const svd(centre, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    auto const& sigma = svd.singularValues();
+    approximate_svd const svd(centre);
+    auto const& sigma = svd.values;
     std::size_t most = 0;
     while (static_cast<Eigen::Index>(most) < sigma.size() &&
            sigma(static_cast<Eigen::Index>(most)) > 1e-15 * sigma(0)) {
         ++most;
     }
     auto const count = static_cast<Eigen::Index>(most);
-    Eigen::MatrixXd const w = scale.asDiagonal() * svd.matrixV().leftCols(count);
+    Eigen::MatrixXd const w = scale.asDiagonal() * svd.right.leftCols(count);
     auto const turned = product(kept, w);
     interval_matrix<interval> b(most, most);
     for (Eigen::Index i = 0; i < count; ++i) {
         for (std::size_t k = 0; k < kept.rows(); ++k) {
-            double const c = svd.matrixU()(static_cast<Eigen::Index>(k), i) * weights[k] / sigma(i);
+            double const c = svd.left(static_cast<Eigen::Index>(k), i) * weights[k] / sigma(i);
             if (!std::isfinite(c)) return 0;
             for (std::size_t j = 0; j < most; ++j) {
                 auto& sum = b(static_cast<std::size_t>(i), j);

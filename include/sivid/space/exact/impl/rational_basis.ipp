@@ -2,9 +2,8 @@
 #ifndef SIVID_SPACE_EXACT_IMPL_RATIONAL_BASIS_IPP
 #define SIVID_SPACE_EXACT_IMPL_RATIONAL_BASIS_IPP
 
+#include <sivid/space/dense.hpp>
 #include <sivid/space/exact/detail/rational_basis.hpp>
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -79,9 +78,7 @@ SIVID_DECL Eigen::MatrixXd orthogonal_complement(std::vector<std::vector<int>> c
             m(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) = vectors[k][j];
         }
     }
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> const qr(m);
-    Eigen::MatrixXd const q = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
-    return q.rightCols(n - qr.rank());
+    return approximate_complement(m);
 }
 
 } // namespace sivid

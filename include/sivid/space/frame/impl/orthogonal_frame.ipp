@@ -2,9 +2,8 @@
 #ifndef SIVID_SPACE_FRAME_IMPL_ORTHOGONAL_FRAME_IPP
 #define SIVID_SPACE_FRAME_IMPL_ORTHOGONAL_FRAME_IPP
 
+#include <sivid/space/dense.hpp>
 #include <sivid/space/frame/orthogonal_frame.hpp>
-
-#include <Eigen/QR>
 
 #include <numeric>
 
@@ -28,7 +27,7 @@ SIVID_DECL Eigen::MatrixXd orthogonal_axes(Eigen::MatrixXd const& a,
     });
     Eigen::MatrixXd sorted(n, n);
     for (Eigen::Index j = 0; j < n; ++j) sorted.col(j) = a.col(order[static_cast<std::size_t>(j)]);
-    Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(sorted).householderQ();
+    Eigen::MatrixXd q = approximate_orthogonal(sorted);
     return q.allFinite() ? q : straight;
 }
 
