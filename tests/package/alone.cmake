@@ -19,7 +19,7 @@ if(NOT NOTHING_BEFORE)
     set(common "")
     foreach(header algorithm array atomic charconv chrono cmath cstddef cstdint filesystem functional limits map memory
             mutex numeric optional random set stdexcept string string_view tuple type_traits utility variant vector
-            Eigen/Cholesky Eigen/Core Eigen/LU Eigen/QR)
+            Eigen/Core)
         string(APPEND common "#include <${header}>\n")
     endforeach()
     file(WRITE "${WORK}/common.hpp" "${common}")
