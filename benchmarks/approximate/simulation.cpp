@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Simulations of the hovercraft with sensitivities, the work of which fits consist, by some of
-// Boost.Odeint's steppers: seconds of the processor for a run (the least of some), and how far its
-// outputs and derivatives are from those of a far smaller tolerance.
+// Simulations of the hovercraft with sensitivities, the work of which fits consist, by a
+// Runge-Kutta method written by hand and by some of Boost.Odeint's steppers: seconds of the
+// processor for a run (the least of some, the methods taking turns) and how many times those by
+// hand, and how far its outputs and derivatives are from those of a far smaller tolerance.
 //     sivid_benchmark_simulation [REPETITIONS]
 #include "model.hpp"
 
 #include <sivid/approximate/simulate/approximate_simulator.hpp>
 #include <sivid/approximate/simulate/odeint_stepping.hpp>
-#ifdef SIVID_FORMER_SIMULATOR // to compare with another implementation in one run
-#include SIVID_FORMER_SIMULATOR
-#endif
 
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
@@ -73,25 +71,74 @@ double seconds() { return static_cast<double>(std::clock()) / static_cast<double
 
 using simulator = sivid::approximate_simulator;
 
+/// What `classical_steps` has Odeint do, without Odeint: the measure of what that costs.
+class steps_by_hand final : public sivid::stepping {
+public:
+    sivid::step_outcome step(sivid::rate_function& rate, sivid::simulation_state const& x,
+                             sivid::simulation_state const& dx, double& t,
+                             sivid::simulation_state& to, sivid::simulation_state& rate_there,
+                             double& h) override {
+        auto const size = x.size();
+        for (auto* v : {&to, &rate_there, &at_, &second_, &third_, &fourth_}) v->resize(size);
+        auto const ahead = [&](double by, sivid::simulation_state const& slope) {
+            for (Eigen::Index i = 0; i < size; ++i) at_[i] = x[i] + by * slope[i];
+        };
+        ahead(0.5 * h, dx);
+        rate(at_, second_, t + 0.5 * h);
+        ahead(0.5 * h, second_);
+        rate(at_, third_, t + 0.5 * h);
+        ahead(h, third_);
+        rate(at_, fourth_, t + h);
+        for (Eigen::Index i = 0; i < size; ++i) {
+            to[i] = x[i] + h / 6 * (dx[i] + 2 * (second_[i] + third_[i]) + fourth_[i]);
+        }
+        rate(to, rate_there, t + h);
+        double worst = 0;
+        for (std::size_t i = 0; i < tolerance.absolute.size(); ++i) {
+            auto const k = static_cast<Eigen::Index>(i);
+            worst =
+                std::max(worst, h / 6 * std::abs(fourth_[k] - rate_there[k]) /
+                                    (tolerance.absolute[i] + tolerance.relative * std::abs(x[k])));
+        }
+        worst /= tolerance.accuracy;
+        if (!(worst <= 1) && h > tolerance.shortest) {
+            h *= std::max(0.9 * std::pow(worst, -1.0 / 3), 0.2);
+            return sivid::step_outcome::too_long;
+        }
+        t += h;
+        if (worst < 0.5) h *= 0.9 * std::pow(std::max(worst, std::pow(5.0, -4)), -0.25);
+        return sivid::step_outcome::with_rate;
+    }
+
+private:
+    sivid::simulation_state at_, second_, third_, fourth_;
+};
+std::unique_ptr<sivid::stepping> by_hand() { return std::make_unique<steps_by_hand>(); }
+
 struct result {
     double best = HUGE_VAL;
     sivid::simulated_outputs out;
 };
 
-template <class Simulator>
-result timed(Simulator run, setting const& s, bool sensitive, double accuracy, int repetitions) {
-    run.set_accuracy(accuracy);
+/// One run after another of each simulator in turn, so that what disturbs one disturbs all.
+std::vector<result> timed(std::vector<simulator>& runs, setting const& s, bool sensitive,
+                          double accuracy, int repetitions) {
     auto const layout = s.layout();
-    result r;
+    std::vector<result> results(runs.size());
+    for (auto& run : runs) run.set_accuracy(accuracy);
     for (int k = 0; k < repetitions; ++k) {
-        double const begin = seconds();
-        if (!run({1, 0.1, 0, 0, 0, 0}, s.parameters, s.disturbance, layout, sensitive, r.out)) {
-            std::printf("    failed\n");
-            return {};
+        for (std::size_t m = 0; m < runs.size(); ++m) {
+            auto& r = results[m];
+            double const begin = seconds();
+            if (!runs[m]({1, 0.1, 0, 0, 0, 0}, s.parameters, s.disturbance, layout, sensitive,
+                         r.out)) {
+                std::printf("    failed\n");
+                return results;
+            }
+            r.best = std::min(r.best, seconds() - begin);
         }
-        r.best = std::min(r.best, seconds() - begin);
     }
-    return r;
+    return results;
 }
 
 double largest_difference(std::vector<double> const& a, std::vector<double> const& b) {
@@ -119,6 +166,7 @@ int main(int argc, char** argv) {
         sivid::stepping_maker steps;
     };
     method const methods[] = {
+        {"by hand", by_hand},
         {"classical_steps", sivid::classical_steps},
         {"dormand_prince_steps", sivid::dormand_prince_steps},
         {"cash_karp54", sivid::step_by<sivid::odeint_method<odeint::runge_kutta_cash_karp54>>},
@@ -133,22 +181,20 @@ int main(int argc, char** argv) {
         auto const make = [&](sivid::stepping_maker steps) {
             return simulator(model, s.inputs, 0, s.requests, tolerances, s.knots, steps);
         };
-        auto const exact = timed(make(methods[3].steps), s, true, 1e-5, 1);
-        auto const print = [&](char const* name, result const& values, result const& all) {
-            std::printf("  %-22s outputs %10.6f s, with derivatives %10.6f s; off by %.1e, %.1e\n",
-                        name, values.best, all.best,
-                        largest_difference(all.out.values, exact.out.values),
-                        largest_difference(all.out.jacobian, exact.out.jacobian));
-        };
-#ifdef SIVID_FORMER_SIMULATOR
-        sivid::old::sensitive_simulator const former(model, s.inputs, 0, s.requests, tolerances,
-                                                     s.knots);
-        auto const before = timed(former, s, false, 1, repetitions);
-        print("former", before, timed(former, s, true, 1, repetitions));
-#endif
-        for (auto const& m : methods) {
-            auto const values = timed(make(m.steps), s, false, 1, repetitions);
-            print(m.name, values, timed(make(m.steps), s, true, 1, repetitions));
+        std::vector<simulator> runs, finest;
+        for (auto const& m : methods) runs.push_back(make(m.steps));
+        finest.push_back(
+            make(sivid::step_by<sivid::odeint_method<odeint::runge_kutta_fehlberg78>>));
+        auto const exact = timed(finest, s, true, 1e-5, 1).front();
+        auto const values = timed(runs, s, false, 1, repetitions);
+        auto const all = timed(runs, s, true, 1, repetitions);
+        for (std::size_t m = 0; m < all.size(); ++m) {
+            std::printf("  %-22s outputs %10.6f s (%.2f), with derivatives %10.6f s (%.2f); "
+                        "off by %.1e, %.1e\n",
+                        methods[m].name, values[m].best, values[m].best / values[0].best,
+                        all[m].best, all[m].best / all[0].best,
+                        largest_difference(all[m].out.values, exact.out.values),
+                        largest_difference(all[m].out.jacobian, exact.out.jacobian));
         }
     }
     return 0;
