@@ -236,6 +236,42 @@ TEST_CASE("a block that has gone stale is found", "[readme]") {
     }
 }
 
+TEST_CASE("sources that the guides name exist", "[readme]") {
+    namespace fs = std::filesystem;
+    fs::path const root{SIVID_SOURCE_DIR};
+    std::vector<std::string> sources;
+    for (auto const* folder : {"include", "examples", "tests", "benchmarks"}) {
+        for (auto const& entry : fs::recursive_directory_iterator{root / folder}) {
+            if (entry.is_regular_file())
+                sources.push_back("/" + fs::relative(entry.path(), root).generic_string());
+        }
+    }
+    auto const exists = [&](std::string const& name) {
+        return std::any_of(sources.begin(), sources.end(), [&](std::string const& source) {
+            auto const from = source.size() - std::min(source.size(), name.size());
+            return source.compare(from, name.size(), name) == 0 &&
+                   (name.front() == '_' || source[from - 1] == '/');
+        });
+    };
+    CHECK_FALSE(exists("identify.ipp.hpp"));
+    std::regex const quoted{"`[^`\\n]+`"}, named{R"([\w/.-]*\w\.[hi]pp\b)"};
+    std::size_t seen = 0;
+    for (auto const& entry : fs::directory_iterator{root / "docs"}) {
+        auto const page = entry.path().filename();
+        // Decisions also name what is gone, each with what has come in its place.
+        if (entry.path().extension() != ".md" || page == "decisions.md") continue;
+        auto const text = text_of_file(entry.path());
+        for (std::sregex_iterator q{text.begin(), text.end(), quoted}, end; q != end; ++q) {
+            auto const part = q->str();
+            for (std::sregex_iterator n{part.begin(), part.end(), named}; n != end; ++n, ++seen) {
+                INFO(page << ": " << n->str());
+                CHECK(exists(n->str()));
+            }
+        }
+    }
+    CHECK(seen > 100);
+}
+
 TEST_CASE("each short program is whole in the guide, in at most 40 lines", "[readme]") {
     std::filesystem::path const root{SIVID_SOURCE_DIR};
     auto const guide = text_of_file(root / "docs/guide.md");
