@@ -186,7 +186,6 @@
 #include <sivid/paving/static/static_judge.hpp>
 #include <sivid/paving/static/static_program.hpp>
 #include <sivid/paving/static/static_survey.hpp>
-#include <sivid/paving/static/static_test.hpp>
 #include <sivid/paving/static_inversion.hpp>
 #include <sivid/paving/static_problem.hpp>
 #include <sivid/paving/subpaving.hpp>
