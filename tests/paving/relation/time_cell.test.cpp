@@ -27,11 +27,5 @@ TEST_CASE("without a drift the range is centre and spread") {
     CHECK(still.drift == 0);
     CHECK(still.departure == 0);
     CHECK(equal(still.spread, between(-1, 1)));
-    auto const cell = time_cell::still(
-        0, 1,
-        {between(0, 1), box{between(1, 3), between(0, 0)}, box{between(0, 9)}, box{between(4, 5)}});
-    REQUIRE(cell.lines.size() == 4); // two states, an input, time
-    CHECK(cell.lines[2].centre == 4.5);
-    CHECK(cell.lines[3].centre == 0.5);
     CHECK(is_entire(cell_line::still(interval_traits<interval>::entire()).spread));
 }

@@ -34,11 +34,7 @@ class channel_tube {
 public:
     using traits = interval_traits<interval>;
 
-    channel_tube() = default;
     /// @given  as many bounds as times, at least one; times increase strictly (checked)
-    channel_tube(std::vector<double> const& times, std::vector<interval> const& bounds,
-                 rate_variation const& law)
-        : channel_tube(of_gaps(times, bounds, in_gaps(law, times))) {}
     /// @param variations  what the rate varies by in each gap; may be infinite
     /// @param curvatures  where the rate of the rate lies in each gap; or none
     [[nodiscard]] static channel_tube of_gaps(std::vector<double> times,
@@ -101,12 +97,6 @@ public:
     [[nodiscard]] interval const& departure(std::size_t k) const { return bend_[k]; }
     [[nodiscard]] bool covers(double from, double to) const {
         return times_.front() <= from && to <= times_.back();
-    }
-    /// The sample at exactly this time.
-    [[nodiscard]] std::optional<std::size_t> sample_at(double t) const {
-        auto const at = std::lower_bound(times_.begin(), times_.end(), t);
-        if (at == times_.end() || *at != t) return std::nullopt;
-        return static_cast<std::size_t>(at - times_.begin());
     }
 
     /// Encloses the quantity at all times in [from, to].

@@ -40,15 +40,6 @@ struct time_cell {
     double from = 0, to = 0;
     leaf_ranges at;               ///< all leaves in the cell; unknown constants over their prior
     std::vector<cell_line> lines; ///< of states, then inputs, then time
-
-    /// Lines without drift, from ranges alone.
-    [[nodiscard]] static time_cell still(double from, double to, leaf_ranges const& at) {
-        time_cell result{from, to, at, {}};
-        for (auto const& x : at.states) result.lines.push_back(cell_line::still(x));
-        for (auto const& u : at.inputs) result.lines.push_back(cell_line::still(u));
-        result.lines.push_back(cell_line::still(at.time));
-        return result;
-    }
 };
 
 } // namespace sivid

@@ -86,8 +86,6 @@ public:
 
     /// The parameters, then the starts of each experiment.
     [[nodiscard]] shared_unknowns const& unknowns() const { return unknowns_; }
-    /// With the products.
-    [[nodiscard]] std::size_t columns() const { return columns_; }
 
     /// A number that \f$ \pm d_j \f$ does not exceed; 1 when nothing is gained, minus infinity when
     /// it is proved that nothing meets all measurements.
