@@ -2,10 +2,10 @@
 #ifndef SIVID_PAVING_CONTRACT_DETAIL_LIFTED_PROGRAM_HPP
 #define SIVID_PAVING_CONTRACT_DETAIL_LIFTED_PROGRAM_HPP
 
-#include <sivid/paving/contract/detail/cut_certificate.hpp>
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/contract/detail/lifted_block.hpp>
 #include <sivid/paving/contract/detail/oblique_products.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
 

@@ -2,11 +2,11 @@
 #ifndef SIVID_PAVING_CONTRACT_DETAIL_PREDICTED_OUTPUTS_HPP
 #define SIVID_PAVING_CONTRACT_DETAIL_PREDICTED_OUTPUTS_HPP
 
-#include <sivid/paving/contract/detail/cut_certificate.hpp>
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/contract/detail/misfit_block.hpp>
 #include <sivid/paving/contract/detail/start_follower.hpp>
 #include <sivid/paving/contract/detail/start_rule.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/response/misfit.hpp>
 #include <sivid/space/box.hpp>

@@ -9,7 +9,7 @@
 #include <sivid/paving/relation/input_range.hpp>
 #include <sivid/paving/relation/integrand_set.hpp>
 #include <sivid/paving/relation/state_samples.hpp>
-#include <sivid/paving/relation/time_grid.hpp>
+#include <sivid/paving/relation/time_cell.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,6 @@
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/text/nearest_text.hpp>
-#include <sivid/paving/relation/detail/damping.hpp>
 #include <sivid/paving/relation/detail/declared_variation.hpp>
 #include <sivid/paving/relation/detail/observed_motion.hpp>
 #include <sivid/paving/relation/detail/relation_row.hpp>
@@ -15,7 +14,7 @@
 #include <sivid/paving/relation/detail/weak_windows.hpp>
 #include <sivid/paving/relation/detail/window_integrals.hpp>
 #include <sivid/paving/relation/relation_finding.hpp>
-#include <sivid/paving/relation/time_grid.hpp>
+#include <sivid/paving/relation/time_cell.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,6 @@
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/response/detail/output_polynomial.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/space/box.hpp>
