@@ -3,6 +3,7 @@
 #define SIVID_PAVING_RELATION_CHANNEL_TUBE_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +62,7 @@ public:
             auto bend = traits::bounds(-most, most);
             if (k < curvatures.size() && is_bounded(curvatures[k])) {
                 auto const half = traits::mul(traits::point(-0.5), traits::sqr(gap));
-                auto const both = traits::intersect(bend, traits::mul(half, curvatures[k]));
-                if (!sivid::is_empty(both)) bend = both;
+                bend = agreed(bend, traits::mul(half, curvatures[k]));
             }
             result.bend_.push_back(bend);
         }

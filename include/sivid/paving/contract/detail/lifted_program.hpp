@@ -182,16 +182,13 @@ private:
         for (auto const& [product, tilt] : tilts) {
             bounds.push_back({product.first, product.second, tilt});
         }
-        measured_sum sum(*known_, unknowns_, measured, std::move(target));
-        double const least = sum.outputs.lower_bound(bounds);
         if (cut.empty) {
             // The goal stands beside: what the sum alone is shows whether anything is left.
             measured_sum const rest(*known_, unknowns_, measured, std::move(alone));
             return rest.outputs.lower_bound(bounds) > upper(rest.most) ? -detail::infinity
                                                                        : detail::infinity;
         }
-        if (!std::isfinite(least)) return detail::infinity;
-        return upper(traits::sub(sum.most, traits::point(least)));
+        return measured_sum(*known_, unknowns_, measured, std::move(target)).reach(bounds);
     }
 
     response_list const* known_;

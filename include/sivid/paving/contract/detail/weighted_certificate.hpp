@@ -114,6 +114,16 @@ struct measured_sum {
             if (!mine.empty()) outputs.add(r, mine, unknowns.places[s]);
         }
     }
+
+    /// What it cannot exceed, less what the outputs are at least; infinite where they have no
+    /// least.
+    /// @param planes  see `combined_polynomial::lower_bound`
+    [[nodiscard]] double reach(std::vector<combined_polynomial::plane> const& planes = {}) const {
+        using traits = interval_traits<interval>;
+        double const least = outputs.lower_bound(planes);
+        if (!std::isfinite(least)) return detail::infinity;
+        return upper(traits::sub(most, traits::point(least)));
+    }
 };
 
 /// Whether no unknown meets all weighted measurements.
@@ -141,9 +151,7 @@ certified_empty(response_list const& known, shared_unknowns const& unknowns,
     combined_polynomial start(unknowns.count);
     start.add_linear(j, traits::point(upwards ? -1.0 : 1.0));
     measured_sum const sum(known, unknowns, weights, std::move(start));
-    double const least = sum.outputs.lower_bound();
-    if (!std::isfinite(least)) return 1;
-    double const reach = upper(traits::sub(sum.most, traits::point(least)));
+    double const reach = sum.reach();
     return reach < 1 ? reach : 1;
 }
 

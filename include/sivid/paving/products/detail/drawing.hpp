@@ -96,6 +96,24 @@ private:
 
 namespace paving_detail {
 
+/// What boxes that are not outside leave of the combinations of a problem's parameters.
+/// @param reduced  what is left of the reduced parameters; null where these are the problem's own
+template <class Boxes>
+[[nodiscard]] std::vector<combination_hull> hulls_of(dependence_structure const& structure,
+                                                     box const* reduced, Boxes const& boxes) {
+    std::vector<combination_hull> result;
+    for (std::size_t c = 0; c < structure.combinations.size(); ++c) {
+        auto const& what = structure.combinations[c];
+        auto range = reduced != nullptr ? (*reduced)[c] : interval_traits<interval>::empty();
+        for (auto const& b : boxes) {
+            if (reduced == nullptr && b.verdict != box_verdict::outside)
+                range = hull(range, what.over(b.set));
+        }
+        result.push_back({what, range});
+    }
+    return result;
+}
+
 /// The paving of the prior by the test. Sides that do not act are left out while it is drawn: no
 /// box is cut there.
 inline subpaving drawn(preimage_test& test, reduction const& map, box const& prior,

@@ -11,8 +11,6 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace sivid {

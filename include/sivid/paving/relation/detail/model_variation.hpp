@@ -200,8 +200,7 @@ private:
     [[nodiscard]] static box both(box const& a, box const& b) {
         box result = b;
         for (std::size_t i = 0; i < b.size(); ++i) {
-            auto const common = intersect(a[i], b[i]);
-            if (!is_empty(common)) result[i] = common;
+            result[i] = agreed(b[i], a[i]);
         }
         return result;
     }
@@ -227,8 +226,7 @@ private:
                 if (!tubes[i] || !tubes[i]->covers(from, to)) continue;
                 auto const seen = tubes[i]->over(from, to);
                 if (!is_bounded(seen)) continue;
-                auto const common = reach.empty() ? seen : intersect(seen, x[i]);
-                x[i] = is_empty(common) ? seen : common;
+                x[i] = reach.empty() ? seen : agreed(seen, x[i]);
             }
             result.push_back(std::move(x));
         }

@@ -139,13 +139,7 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
         end = std::max(end, s.times.back());
     }
     if (!(end > e.begin)) return result;
-    for (auto const& input : e.inputs) {
-        auto const* sampled = std::get_if<sampled_signal>(&input);
-        if (sampled == nullptr) continue;
-        for (double const t : sampled->times()) {
-            if (t > e.begin && t < end) result.boundaries.push_back(t);
-        }
-    }
+    add_knots(result.boundaries, e.inputs, e.begin, end);
     result.boundaries =
         refined_times(std::move(result.boundaries), spacing / static_cast<double>(cells_per_gap));
     for (std::size_t c = 0; c + 1 < result.boundaries.size(); ++c) {

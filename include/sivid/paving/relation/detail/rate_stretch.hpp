@@ -5,7 +5,6 @@
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <vector>
 
 namespace sivid {

@@ -341,10 +341,8 @@ private:
         }
         for (std::size_t j = 0; j < e.row.functions.size(); ++j) {
             auto value = integral.direct(j, first, last);
-            if (parts && integral.has_parts(j)) {
-                auto const both = intersect(value, integral.by_parts(j, first, last, q_at));
-                if (!is_empty(both)) value = both;
-            }
+            if (parts && integral.has_parts(j))
+                value = agreed(value, integral.by_parts(j, first, last, q_at));
             if (!is_bounded(value)) return std::nullopt;
             w.a.push_back(scaled(value));
         }
