@@ -19,7 +19,7 @@ function(sivid_compiled_source name text)
 endfunction()
 
 # Each part of include/sivid/impl is one source: they are compiled side by side, and none takes more than 2 GB.
-set(parts library number space measurement model approximate enclosure tube flow flow_lanes paving paving_lanes paving_further paving_check
+set(parts library number space measurement model approximate enclosure tube flow flow_lanes paving paving_lanes paving_further
     decision diagnosis)
 if(TARGET sivid::io)
     list(APPEND parts io)

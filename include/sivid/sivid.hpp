@@ -165,7 +165,6 @@
 #include <sivid/paving/relation/relation_finding.hpp>
 #include <sivid/paving/relation/state_samples.hpp>
 #include <sivid/paving/relation/time_cell.hpp>
-#include <sivid/paving/relation/time_grid.hpp>
 #include <sivid/paving/response/combined_polynomial.hpp>
 #include <sivid/paving/response/linear_contraction.hpp>
 #include <sivid/paving/response/local_response.hpp>
@@ -186,7 +185,6 @@
 #include <sivid/paving/static/static_judge.hpp>
 #include <sivid/paving/static/static_program.hpp>
 #include <sivid/paving/static/static_survey.hpp>
-#include <sivid/paving/static/static_test.hpp>
 #include <sivid/paving/static_inversion.hpp>
 #include <sivid/paving/static_problem.hpp>
 #include <sivid/paving/subpaving.hpp>

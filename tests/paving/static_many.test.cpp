@@ -128,7 +128,6 @@ void check_planted(int problems, unsigned seed) {
         o.accuracy = 0.1;
         o.boxes = 300;
         o.only_hulls = round % 2 == 1;
-        o.forms = round % 7 == 6 ? first_order::where_it_helps : first_order::always;
         auto const found = invert_static(problem, o);
         INFO(round << " of seed " << seed << ", " << n << " measurements, budget " << budget);
         REQUIRE(within(found, truth));

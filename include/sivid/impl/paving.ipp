@@ -4,7 +4,6 @@
 
 #include <sivid/paving/contract/impl/window_contraction.ipp>
 #include <sivid/paving/curve/impl/curve_family.ipp>
-#include <sivid/paving/curve/impl/curve_shapes.ipp>
 #include <sivid/paving/curve/impl/shaped_problem.ipp>
 #include <sivid/paving/impl/identify.ipp>
 #include <sivid/paving/impl/inflation.ipp>
@@ -13,7 +12,6 @@
 #include <sivid/paving/judge/impl/response_judgement.ipp>
 #include <sivid/paving/observer/impl/observer_contraction.ipp>
 #include <sivid/paving/relation/impl/relation_contraction.ipp>
-#include <sivid/paving/relation/impl/separation.ipp>
 #include <sivid/paving/run/impl/run_reach.ipp>
 
 #endif

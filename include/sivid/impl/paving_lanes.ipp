@@ -5,7 +5,6 @@
 /// @file
 /// What runs Taylor models in lanes: the most expensive part to compile.
 
-#include <sivid/paving/run/impl/continued_run.ipp>
 #include <sivid/paving/run/impl/experiment_run.ipp>
 
 #endif

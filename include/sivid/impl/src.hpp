@@ -26,7 +26,6 @@
 #include <sivid/impl/model.ipp>
 #include <sivid/impl/number.ipp>
 #include <sivid/impl/paving.ipp>
-#include <sivid/impl/paving_check.ipp>
 #include <sivid/impl/paving_further.ipp>
 #include <sivid/impl/paving_lanes.ipp>
 #include <sivid/impl/space.ipp>

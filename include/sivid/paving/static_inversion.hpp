@@ -29,7 +29,6 @@ struct static_inversion_options {
     double uncertain = 0;
     double seconds = 60;
     std::size_t boxes = 100'000'000;
-    sivid::first_order forms = sivid::first_order::always;
     /// Only the hull of what is feasible is sought: boxes are split while they reach further, by
     /// `accuracy` of the prior's side, than the hull of points that are proved feasible. These
     /// points are `inside`, as boxes without width; what is `open` is not told apart any more.
@@ -53,8 +52,8 @@ public:
     static_inversion(static_problem const& problem, static_inversion_options options)
         : program_(problem),
           samples_(problem),
-          judge_(program_, samples_, problem.outliers, options.forms),
-          survey_(program_, samples_, problem.outliers, options.forms, options.only_hulls),
+          judge_(program_, samples_, problem.outliers),
+          survey_(program_, samples_, problem.outliers, options.only_hulls),
           prior_(problem.prior),
           options_(std::move(options)),
           result_(problem.prior) {}
@@ -386,7 +385,8 @@ private:
 /// as many as may be outliers.
 /// @throws std::invalid_argument  for a problem that does not fit together (it names what)
 /// @throws unsound_environment    where interval arithmetic would prove nothing (`guard.hpp`)
-/// @guarantee  the boxes and what is excluded cover the prior; inside boxes satisfy the measurements
+/// @guarantee  the boxes and what is excluded cover the prior; inside boxes satisfy the
+/// measurements
 ///             throughout, `hull` contains every parameter that does
 /// @cost  time and memory linear in the measurements, times the boxes; eight boxes or eight
 ///        measurements at a time

@@ -21,14 +21,14 @@ struct paved_box {
 /// undecided or pending box covers is proved outside, whether or not the outside boxes were kept.
 class subpaving {
 public:
-    explicit subpaving(box prior) : prior_(std::move(prior)) {}
+    explicit subpaving(box prior) : prior_(std::move(prior)), hull_(empty_box(prior_.size())) {}
 
     void add(box set, box_verdict v) {
         auto const volume = relative_volume(set, prior_);
         if (v == box_verdict::inside) inner_ = sum(inner_, volume);
         if (v != box_verdict::outside) {
             outer_ = sum(outer_, volume);
-            hull_ = has_outer_ ? hull(hull_, set) : set;
+            hull_ = hull(hull_, set);
             has_outer_ = true;
         }
         boxes_.push_back({std::move(set), v});
@@ -52,12 +52,7 @@ public:
     /// Whether anything is not proved outside.
     [[nodiscard]] bool has_outer() const { return has_outer_; }
     /// The smallest box around all that is not proved outside; empty sides when all is.
-    [[nodiscard]] box outer_hull() const {
-        if (has_outer_) return hull_;
-        box none(prior_.size());
-        for (std::size_t i = 0; i < none.size(); ++i) none[i] = interval_traits<interval>::empty();
-        return none;
-    }
+    [[nodiscard]] box const& outer_hull() const { return hull_; }
     /// The largest box of a verdict against the prior, null when there is none.
     [[nodiscard]] box const* largest(box_verdict v) const {
         box const* best = nullptr;

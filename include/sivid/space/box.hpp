@@ -116,6 +116,13 @@ template <class I>
     return result;
 }
 
+/// What two intervals or boxes have in common; the first where that is nothing.
+template <class Set>
+[[nodiscard]] Set agreed(Set const& a, Set const& b) {
+    auto common = intersect(a, b);
+    return is_empty(common) ? a : common;
+}
+
 template <class I>
 [[nodiscard]] lane_mask<I> subset(basic_box<I> const& a, basic_box<I> const& b) {
     auto all = every_lane<I>();

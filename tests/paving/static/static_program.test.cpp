@@ -63,14 +63,10 @@ TEST_CASE("values and gradients enclose, in scalars and packs") {
     check_program<pack<8>>();
 }
 
-TEST_CASE("repeated parameters and jumps are seen") {
+TEST_CASE("jumps are seen") {
     static_program const program(static_models::mixed_problem(1.2, 0.7));
     CHECK(program.parameters() == 2);
-    CHECK(program.repeats(0));
-    CHECK_FALSE(program.repeats(1));
     for (std::size_t c = 0; c < 3; ++c) CHECK(program.differentiable(c) == (c != 2));
-    static_program const ring(static_models::ring_problem());
-    CHECK_FALSE(ring.repeats(0));
 }
 
 TEST_CASE("fixed constants are bound, and an undefined output is flagged") {

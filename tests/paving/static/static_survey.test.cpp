@@ -16,11 +16,11 @@ struct bench {
     static_samples samples;
     static_survey<> survey;
 
-    explicit bench(static_problem p, first_order use = first_order::always)
+    explicit bench(static_problem p)
         : problem(std::move(p)),
           program(problem),
           samples(problem),
-          survey(program, samples, problem.outliers, use) {}
+          survey(program, samples, problem.outliers) {}
     [[nodiscard]] static_box whole(box x) const {
         return {std::move(x),
                 std::make_shared<std::vector<static_samples::index> const>(samples.all()), 0};
@@ -36,8 +36,7 @@ TEST_CASE("one box is judged by all measurements as by each") {
     for (int round = 0; round < 600; ++round) {
         auto const spoilt = static_cast<std::size_t>(round % 3);
         double const p = place(random), q = place(random);
-        bench b(static_models::mixed_problem(p, q, spoilt, spoilt),
-                round % 2 == 0 ? first_order::always : first_order::never);
+        bench b(static_models::mixed_problem(p, q, spoilt, spoilt));
         if (b.problem.measurements.size() <= spoilt) continue;
         double const w = size(random), x = p + 2 * w * share(random), y = q + 2 * w * share(random);
         auto now = b.whole({interval(x - w, x + w), interval(y - w, y + w)});

@@ -2,8 +2,9 @@
 #ifndef SIVID_PAVING_CURVE_CURVE_SHAPES_HPP
 #define SIVID_PAVING_CURVE_CURVE_SHAPES_HPP
 
-#include <sivid/compiled.hpp>
+#include <sivid/model/expression.hpp>
 #include <sivid/model/graph/graph.hpp>
+#include <sivid/paving/curve/detail/principal_shapes.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
@@ -27,14 +28,21 @@ struct curve_shapes {
 
     [[nodiscard]] std::size_t count() const { return shapes.size(); }
     /// m(x) + sum of theta_j s_j(x) in a graph.
-    [[nodiscard]] SIVID_DECL node_id in(graph& g, node_id z,
-                                        std::vector<node_id> const& theta) const;
+    [[nodiscard]] node_id in(graph& g, node_id z, std::vector<node_id> const& theta) const {
+        std::vector<expression> powers; // their coefficients
+        for (std::size_t k = 0; k < mean.size(); ++k) {
+            expression sum(g, g.constant(mean[k]));
+            for (std::size_t j = 0; j < theta.size(); ++j) {
+                if (shapes[j][k] != 0) sum = sum + shapes[j][k] * expression(g, theta[j]);
+            }
+            powers.push_back(sum);
+        }
+        auto const x = (expression(g, z) - centre) * scale;
+        auto const none = [&](std::size_t k) { return g.is(powers[k].in(g), 0); };
+        return paving_detail::horner(powers, none, x).in(g);
+    }
 };
 
 } // namespace sivid
-
-#ifndef SIVID_COMPILED
-#include <sivid/paving/curve/impl/curve_shapes.ipp>
-#endif
 
 #endif

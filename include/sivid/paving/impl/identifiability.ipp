@@ -159,16 +159,12 @@ SIVID_DECL identifiability identifiability_of(identification_problem const& prob
 
     paving_detail::sensitivity_spectrum const spectrum(problem, runs, at, result.starts, there);
     result.approximate_rank = spectrum.rank();
-    for (auto const& d : spectrum.directions()) {
-        result.directions.push_back({d.components, d.noticed});
+    result.directions = spectrum.directions();
+    result.free = spectrum.free_motions();
+    for (auto& m : result.free) {
+        m.proved = paving_detail::is_proved(problem, runs, m.kind, m.weights);
     }
-    for (auto const& m : spectrum.free_motions()) {
-        bool const proved = paving_detail::is_proved(problem, runs, m.kind, m.weights);
-        result.free.push_back({m.kind, m.weights, m.noticed, proved});
-    }
-    for (auto const& m : spectrum.nearly_free_motions()) {
-        result.nearly_free.push_back({m.kind, m.weights, m.noticed, false});
-    }
+    result.nearly_free = spectrum.nearly_free_motions();
     result.most_rank = std::min(result.outputs + result.missing,
                                 result.unknowns.size() - paving_detail::proved_freedom(result));
     paving_detail::add_formulas(result);

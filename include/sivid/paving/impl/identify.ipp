@@ -216,15 +216,8 @@ SIVID_DECL identification identify(identification_problem const& problem,
     result.verdict = result.witness ? verdict::consistent : proved_verdict(result.paving);
     if (result.paving.has_outer()) {
         result.entangled = structure.entangled;
-        for (std::size_t c = 0; c < structure.combinations.size(); ++c) {
-            auto const& what = structure.combinations[c];
-            auto range = map ? left[c] : interval_traits<interval>::empty();
-            for (auto const& b : result.paving.boxes()) {
-                if (!map && b.verdict != box_verdict::outside)
-                    range = hull(range, what.over(b.set));
-            }
-            result.combinations.push_back({what, range});
-        }
+        result.combinations =
+            paving_detail::hulls_of(structure, map ? &left : nullptr, result.paving.boxes());
         result.forced = paving_detail::find_forced(searching, asked, left);
     }
     if (result.excludes_little() && result.reason != stop_reason::decided &&

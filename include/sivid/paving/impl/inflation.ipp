@@ -48,12 +48,12 @@ public:
             if (upper_ > 1.001 * guess->inflation) try_witness(p, guess->starts);
         }
         if (!witness_) improve(mid(working().prior), starts);
-        auto const propose = [this](inflation_relaxation const& found, bool complete) {
+        search_.policy().propose = [this](inflation_relaxation const& found, bool complete) {
             consider(found, complete);
         };
-        while (!search_.exhausted() && !finished()) {
-            search_.aim_at(target());
-            search_.step(propose, [this] { return within_time(); });
+        while (search_.next() != nullptr && !finished()) {
+            search_.policy().target = target();
+            search_.step([this] { return within_time(); });
             if (promise_) {
                 improve(promise_->point, promise_->starts);
                 promise_.reset();
@@ -141,7 +141,7 @@ private:
         if (value.upper() < upper_) {
             upper_ = value.upper();
             witness_ = std::move(candidate);
-            search_.drop_above(upper_);
+            search_.policy().above = upper_;
         }
     }
     [[nodiscard]] inflation_bound report() {

@@ -227,18 +227,9 @@ private:
         return p;
     }
     [[nodiscard]] std::vector<combination_hull> combinations() const {
-        std::vector<combination_hull> result;
-        if (paving_->boxes().empty()) return result;
+        if (paving_->boxes().empty()) return {};
         auto const left = paving_->hull();
-        for (std::size_t c = 0; c < structure_.combinations.size(); ++c) {
-            auto const& what = structure_.combinations[c];
-            auto range = map_ ? left[c] : interval_traits<interval>::empty();
-            if (!map_) {
-                for (auto const& b : paving_->boxes()) range = sivid::hull(range, what.over(b.set));
-            }
-            result.push_back({what, range});
-        }
-        return result;
+        return paving_detail::hulls_of(structure_, map_ ? &left : nullptr, paving_->boxes());
     }
     /// Measurements that fail in every live box.
     [[nodiscard]] std::vector<forced_outlier> forced() const {

@@ -8,6 +8,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/number/pack_traits.hpp>
 #include <sivid/number/rounding.hpp>
+#include <sivid/paving/relation/input_range.hpp>
 #include <sivid/paving/response/misfit.hpp>
 
 #include <algorithm>
@@ -137,12 +138,7 @@ private:
     void find_ticks() {
         ticks_.push_back(experiment_->begin);
         for (auto const& m : samples_) ticks_.push_back(m.time);
-        double const end = samples_.back().time;
-        for (auto const i : model_.sampled) {
-            for (double const t : std::get<sampled_signal>(experiment_->inputs[i]).times()) {
-                if (t > experiment_->begin && t < end) ticks_.push_back(t);
-            }
-        }
+        add_knots(ticks_, experiment_->inputs, experiment_->begin, samples_.back().time);
         std::sort(ticks_.begin(), ticks_.end());
         ticks_.erase(std::unique(ticks_.begin(), ticks_.end()), ticks_.end());
     }

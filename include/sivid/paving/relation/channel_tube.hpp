@@ -3,6 +3,7 @@
 #define SIVID_PAVING_RELATION_CHANNEL_TUBE_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +35,7 @@ class channel_tube {
 public:
     using traits = interval_traits<interval>;
 
-    channel_tube() = default;
     /// @given  as many bounds as times, at least one; times increase strictly (checked)
-    channel_tube(std::vector<double> const& times, std::vector<interval> const& bounds,
-                 rate_variation const& law)
-        : channel_tube(of_gaps(times, bounds, in_gaps(law, times))) {}
     /// @param variations  what the rate varies by in each gap; may be infinite
     /// @param curvatures  where the rate of the rate lies in each gap; or none
     [[nodiscard]] static channel_tube of_gaps(std::vector<double> times,
@@ -65,8 +62,7 @@ public:
             auto bend = traits::bounds(-most, most);
             if (k < curvatures.size() && is_bounded(curvatures[k])) {
                 auto const half = traits::mul(traits::point(-0.5), traits::sqr(gap));
-                auto const both = traits::intersect(bend, traits::mul(half, curvatures[k]));
-                if (!sivid::is_empty(both)) bend = both;
+                bend = agreed(bend, traits::mul(half, curvatures[k]));
             }
             result.bend_.push_back(bend);
         }
@@ -101,12 +97,6 @@ public:
     [[nodiscard]] interval const& departure(std::size_t k) const { return bend_[k]; }
     [[nodiscard]] bool covers(double from, double to) const {
         return times_.front() <= from && to <= times_.back();
-    }
-    /// The sample at exactly this time.
-    [[nodiscard]] std::optional<std::size_t> sample_at(double t) const {
-        auto const at = std::lower_bound(times_.begin(), times_.end(), t);
-        if (at == times_.end() || *at != t) return std::nullopt;
-        return static_cast<std::size_t>(at - times_.begin());
     }
 
     /// Encloses the quantity at all times in [from, to].

@@ -9,8 +9,21 @@
 #include <algorithm>
 #include <cmath>
 #include <variant>
+#include <vector>
 
 namespace sivid {
+
+/// Adds the knots of inputs that lie between two times.
+inline void add_knots(std::vector<double>& times, std::vector<signal> const& inputs, double from,
+                      double to) {
+    for (auto const& u : inputs) {
+        auto const* sampled = std::get_if<sampled_signal>(&u);
+        if (sampled == nullptr) continue;
+        for (double const t : sampled->times()) {
+            if (from < t && t < to) times.push_back(t);
+        }
+    }
+}
 
 /// The range of an input over times within one piece, its error included.
 [[nodiscard]] inline interval input_over(signal const& s, double from, double to) {

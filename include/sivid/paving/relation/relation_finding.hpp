@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,10 +66,6 @@ struct relation_finding {
 /// How relations are examined.
 struct relation_options {
     double shortest = 0.3, longest = 10; ///< of the windows [s]; see `weak_equation::over`, too
-    /// Declared bounds on how much the rate of a state varies from one sample to the next, by the
-    /// state's name, in its unit per s; states that are not named get a default (see
-    /// `declare_variations`).
-    std::map<std::string, double> rate_variation;
     /// A proof by less than this is not reported: reserve against assumptions that are met barely.
     double least_margin = 0.02;
     std::size_t cells_per_gap = 6;    ///< cells between two samples

@@ -121,8 +121,7 @@ private:
         for (auto const& m : sorted(e.measurements)) {
             if (m.channel != channel) continue;
             if (!times.empty() && m.time == times.back()) {
-                auto const both = intersect(m.bound, bounds.back());
-                bounds.back() = is_empty(both) ? m.bound : both;
+                bounds.back() = agreed(m.bound, bounds.back());
             } else {
                 times.push_back(m.time);
                 bounds.push_back(m.bound);

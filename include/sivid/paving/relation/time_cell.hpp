@@ -5,6 +5,10 @@
 #include <sivid/model/graph/graph_range.hpp>
 #include <sivid/number/interval_traits.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -40,16 +44,41 @@ struct time_cell {
     double from = 0, to = 0;
     leaf_ranges at;               ///< all leaves in the cell; unknown constants over their prior
     std::vector<cell_line> lines; ///< of states, then inputs, then time
-
-    /// Lines without drift, from ranges alone.
-    [[nodiscard]] static time_cell still(double from, double to, leaf_ranges const& at) {
-        time_cell result{from, to, at, {}};
-        for (auto const& x : at.states) result.lines.push_back(cell_line::still(x));
-        for (auto const& u : at.inputs) result.lines.push_back(cell_line::still(u));
-        result.lines.push_back(cell_line::still(at.time));
-        return result;
-    }
 };
+
+/// The given times, each gap cut into pieces no longer than about `step`.
+[[nodiscard]] inline std::vector<double> refined_times(std::vector<double> times, double step) {
+    std::sort(times.begin(), times.end());
+    std::vector<double> result;
+    for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+        double const gap = times[k + 1] - times[k];
+        auto const pieces =
+            static_cast<std::size_t>(std::clamp(std::ceil(gap / step - 1e-6), 1.0, 1e3));
+        for (std::size_t p = 0; p < pieces; ++p) {
+            double const t = times[k] + gap * static_cast<double>(p) / static_cast<double>(pieces);
+            if (result.empty() || result.back() < t) result.push_back(t);
+        }
+    }
+    if (result.empty() || result.back() < times.back()) result.push_back(times.back());
+    return result;
+}
+
+/// Windows (first, last) between so many times: of many lengths, each about half as much longer
+/// than the one before, from one gap to all; those of a length overlap, and are some hundred at
+/// most.
+[[nodiscard]] inline std::vector<std::pair<std::size_t, std::size_t>>
+spread_windows(std::size_t times) {
+    std::vector<std::pair<std::size_t, std::size_t>> result;
+    std::size_t last = 0;
+    for (double gaps = 1; last + 1 < times; gaps *= 1.5) {
+        auto const length = std::min(static_cast<std::size_t>(gaps), times - 1);
+        if (length == last) continue;
+        last = length;
+        auto const stride = std::max(length / 8, times / 128 + 1);
+        for (std::size_t a = 0; a + length < times; a += stride) result.emplace_back(a, a + length);
+    }
+    return result;
+}
 
 } // namespace sivid
 

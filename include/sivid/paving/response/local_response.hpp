@@ -41,6 +41,18 @@ inline void normalise(normalised_unknowns::side const& s, interval const& part, 
 
 } // namespace paving_detail
 
+/// Puts q_v + by in place of q_v in polynomials whose coefficients stand side by side, monomial
+/// after monomial.
+inline void shift(std::vector<double>& coefficients, monomial_table const& table,
+                  std::size_t outputs, std::size_t v, double by) {
+    if (by == 0) return;
+    table.shift(v, [&](std::size_t m, std::size_t k) {
+        double* const to = coefficients.data() + m * outputs;
+        double const* const above = coefficients.data() + k * outputs;
+        for (std::size_t y = 0; y < outputs; ++y) to[y] += by * above[y];
+    });
+}
+
 /// The polynomials of a response in q - middle.
 struct shifted_response {
     std::vector<double> coefficients; ///< as those of the response
@@ -66,15 +78,7 @@ struct shifted_response {
         double const* row = c.data() + m * outputs;
         for (std::size_t y = 0; y < outputs; ++y) norm[y] += std::abs(row[y]);
     }
-    for (std::size_t v = 0; v < n; ++v) {
-        double const shift = middle[v];
-        if (shift == 0) continue;
-        table.shift(v, [&](std::size_t m, std::size_t k) {
-            double* const to = c.data() + m * outputs;
-            double const* const above = c.data() + k * outputs;
-            for (std::size_t y = 0; y < outputs; ++y) to[y] += shift * above[y];
-        });
-    }
+    for (std::size_t v = 0; v < n; ++v) shift(c, table, outputs, v, middle[v]);
     double const errors = static_cast<double>((n + 1) * (2 * table.degree + 8) + table.size());
     for (auto& x : norm) x *= 2 * errors * unit;
     return result;

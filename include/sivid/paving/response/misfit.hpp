@@ -66,9 +66,10 @@ struct measured_ends {
     return traits::bounds(traits::sub(middle, way).lower(), traits::add(middle, way).upper());
 }
 
-/// The (q+1)-th largest; zero when there are no more than q.
-[[nodiscard]] inline double largest_after(std::vector<double> values, std::size_t q) {
-    if (q >= values.size()) return 0;
+/// The (q+1)-th largest; `otherwise` when there are no more than q.
+[[nodiscard]] inline double largest_after(std::vector<double> values, std::size_t q,
+                                          double otherwise = 0) {
+    if (q >= values.size()) return otherwise;
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(q), values.end(),
                      std::greater<>());
     return values[q];

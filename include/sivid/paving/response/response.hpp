@@ -19,6 +19,20 @@
 
 namespace sivid {
 
+/// An output of a family of trajectories at one time as a polynomial in the family's normalised
+/// unknowns, \f$ y \in \sum_\alpha c_\alpha q^\alpha \pm radius \f$, by the monomials of a table.
+struct output_polynomial {
+    std::vector<double> coefficients;
+    double radius = 0;
+
+    /// The size of all that is not constant.
+    [[nodiscard]] double spread() const {
+        double sum = 0;
+        for (std::size_t m = 1; m < coefficients.size(); ++m) sum += std::abs(coefficients[m]);
+        return sum;
+    }
+};
+
 /// The monomials of a response, by degree as those of a `monomial_space`.
 struct monomial_table {
     std::size_t variables = 0;

@@ -5,12 +5,12 @@
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/response/misfit.hpp>
 #include <sivid/space/box_lanes.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -96,14 +96,6 @@ enum class run_finding {
 
 namespace paving_detail {
 
-/// The (k+1)-th largest, or the lowest number when there are not so many.
-inline double largest_but(std::vector<double> values, std::size_t k) {
-    if (values.size() <= k) return -HUGE_VAL;
-    auto const at = values.begin() + static_cast<std::ptrdiff_t>(k);
-    std::nth_element(values.begin(), at, values.end(), std::greater<>());
-    return *at;
-}
-
 /// Whether linear contraction of r_0 by the open measurements, at most `spare` of which may fail,
 /// leaves nothing. In each coordinate a feasible point satisfies all but `spare` of the bounds, so
 /// it is at least the (spare + 1)-th largest lower one.
@@ -139,8 +131,8 @@ bool contracts_to_nothing(plain_outputs<I> const& known, record const& samples,
         }
         bool shrank = false;
         for (std::size_t n = 0; n < columns.size(); ++n) {
-            double const low = largest_but(std::move(lows[n]), spare);
-            double const high = -largest_but(std::move(highs[n]), spare);
+            double const low = largest_after(std::move(lows[n]), spare, -HUGE_VAL);
+            double const high = -largest_after(std::move(highs[n]), spare, -HUGE_VAL);
             if (low > high) return true;
             auto& own = d[columns[n]];
             I const less = traits::intersect(own, traits::bounds(low, high));

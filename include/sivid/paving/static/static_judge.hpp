@@ -17,24 +17,11 @@
 
 namespace sivid {
 
-/// Whether boxes are contracted by mean-value forms.
-enum class first_order {
-    never,
-    where_it_helps, ///< for outputs in which a parameter stands more than once
-    always
-};
-[[nodiscard]] inline bool mean_value_of(static_program const& program, std::size_t channel,
-                                        first_order use) {
-    return program.differentiable(channel) &&
-           (use == first_order::always ||
-            (use == first_order::where_it_helps && program.repeats(channel)));
-}
-
 /// Tests W boxes at once against at most 64 measurements of a static problem.
 ///   outside: more than q are violated throughout; inside: at least n - q hold throughout. Of an
-///   open measurement the range is enclosed by the graph; by the mean-value form
-///   \f$ g(m) + \nabla g(x) (x - m) \f$ too where asked, which also contracts: the box to what may
-///   be feasible, and its core to what may be infeasible.
+///   open measurement the range is enclosed by the graph; where the channel is differentiable by
+///   the mean-value form \f$ g(m) + \nabla g(x) (x - m) \f$ too, which also contracts: the box to
+///   what may be feasible, and its core to what may be infeasible.
 /// @guarantee  sound for each box, whatever its lane's neighbours
 /// @cost  only open measurements of a batch are evaluated
 template <std::size_t W>
@@ -46,12 +33,10 @@ class static_judge {
 
 public:
     /// @param program, samples  of one problem; kept by reference
-    static_judge(static_program const& program, static_samples const& samples, std::size_t outliers,
-                 first_order use)
+    static_judge(static_program const& program, static_samples const& samples, std::size_t outliers)
         : program_(program),
           samples_(samples),
           outliers_(outliers),
-          use_(use),
           memory_(program.memory<I>()),
           cut_(program),
           slope_(program.parameters()) {
@@ -111,7 +96,6 @@ private:
     struct entry {
         std::size_t channel = 0;
         I bound;
-        bool mean_value = false;
         mask time_undefined{}, undefined{}; ///< by its time alone; where it was evaluated last
         std::vector<I> timed,
             kept; ///< what its time alone decides; what its gradient needs besides
@@ -125,7 +109,6 @@ private:
             auto& e = entries_[i];
             e.channel = samples_.channel(k);
             e.bound = traits::bounds(samples_.lower[k], samples_.upper[k]);
-            e.mean_value = mean_value_of(program_, e.channel, use_);
             program_.at(memory_, e.channel, traits::point(samples_.time[k]));
             e.time_undefined = memory_.time;
             e.timed.resize(program_.timed(e.channel).size());
@@ -188,7 +171,7 @@ private:
             restore(program_.kept(e.channel), e.kept);
             program_.differentiate_at(memory_, e.channel, undefined);
             add_slopes(e.channel, whose[k]);
-            if (!e.mean_value) continue;
+            if (!program_.differentiable(e.channel)) continue;
             auto const says = cut_.use(program_, memory_, e.channel, e.bound, whose[k] & ~undefined,
                                        outer_, inner_);
             close(l, first, std::uint64_t{1} << k, says.hit, says.miss);
@@ -236,7 +219,6 @@ private:
     static_program const& program_;
     static_samples const& samples_;
     std::size_t outliers_;
-    first_order use_;
     static_memory<I> memory_;
     mean_value_cut<W> cut_;
     static_list list_;

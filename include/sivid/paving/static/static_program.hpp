@@ -8,7 +8,6 @@
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/paving/static_problem.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -99,16 +98,17 @@ public:
             for (auto const& s : o.steps.steps()) {
                 if (read[s.target]) o.kept.push_back(s.target);
             }
-            count_uses(g, o, below);
+            for (std::size_t i = 0; i < g.size(); ++i) {
+                bool const varies = (g.depends(static_cast<node_id>(i)) & on_constant) != 0;
+                bool const jumps = below[i] && g.nodes()[i].op == operation::sign && varies;
+                o.differentiable = o.differentiable && !jumps;
+            }
         }
     }
 
     [[nodiscard]] std::size_t parameters() const { return parameters_; }
     /// Whether the mean value theorem holds for a channel: no jump in it.
     [[nodiscard]] bool differentiable(std::size_t c) const { return channels_[c].differentiable; }
-    /// Whether a parameter stands in a channel more than once, so that its plain evaluation
-    /// overestimates.
-    [[nodiscard]] bool repeats(std::size_t c) const { return channels_[c].repeats; }
     /// The values that time alone decides and that the rest of a channel reads.
     [[nodiscard]] std::vector<node_id> const& timed(std::size_t c) const {
         return channels_[c].timed;
@@ -180,27 +180,8 @@ private:
         node_id value = 0;
         std::vector<node_id> slopes, timed, kept;
         program once, slopes_once, time_steps, steps, slope_steps;
-        bool differentiable = true, repeats = false;
+        bool differentiable = true;
     };
-
-    /// How often parameters are read on the way to an output.
-    static void count_uses(graph const& g, channel& o, std::vector<bool> const& below) {
-        std::vector<std::size_t> paths(g.size(), 0);
-        paths[o.value] = 1;
-        for (std::size_t i = g.size(); i-- > 0;) {
-            auto const& n = g.nodes()[i];
-            if (!below[i]) continue;
-            bool const varies = (g.depends(static_cast<node_id>(i)) & on_constant) != 0;
-            if (n.op == operation::sign && varies) o.differentiable = false;
-            if (n.op == operation::constant) o.repeats = o.repeats || paths[i] > 1;
-            if (is_leaf(n.op)) continue;
-            auto const more = [&](node_id child) { // two is as good as many
-                paths[child] = std::min<std::size_t>(paths[child] + paths[i], 2);
-            };
-            more(n.a);
-            if (is_binary(n.op)) more(n.b);
-        }
-    }
 
     std::size_t parameters_ = 0;
     program leaves_, common_;

@@ -47,12 +47,11 @@ public:
     /// @param program, samples  of one problem; kept by reference
     /// @param seek  `points` are to begin with one deep inside, where there are no outliers
     static_survey(static_program const& program, static_samples const& samples,
-                  std::size_t outliers, first_order use, bool seek = false)
+                  std::size_t outliers, bool seek = false)
         : seek_(seek),
           program_(program),
           samples_(samples),
           outliers_(outliers),
-          use_(use),
           memory_(program.memory<I>()),
           cut_(program),
           sides_(program.parameters()),
@@ -205,7 +204,7 @@ private:
             mask proved = 0;
             if (open != 0) {
                 program_.differentiate_at(memory_, c, undefined);
-                if (mean_value_of(program_, c, use_)) {
+                if (program_.differentiable(c)) {
                     auto const says =
                         cut_.use(program_, memory_, c, bound_, open & ~undefined, outer, 0);
                     hit |= says.hit;
@@ -270,7 +269,6 @@ private:
     static_program const& program_;
     static_samples const& samples_;
     std::size_t outliers_;
-    first_order use_;
     static_memory<I> memory_;
     mean_value_cut<W> cut_;
     mean_value_program programs_;

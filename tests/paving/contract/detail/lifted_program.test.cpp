@@ -96,12 +96,10 @@ TEST_CASE("a product that stands in two measurements is the same in both") {
     }
     response_list const known{std::make_shared<response const>(r)};
     lifted_program const program(known, prior, {box{}}, 0.0);
-    CHECK(program.columns() == 3);
     CHECK_THAT(program.reach(0, true), WithinAbs(0.1, 1e-6));
     CHECK_THAT(program.reach(0, false), WithinAbs(0.1, 1e-6));
     CHECK(program.reach(1, true) == 1);
     lifted_program const plain(known, prior, {box{}}, 10); // the product is an error
-    CHECK(plain.columns() == 2);
     CHECK(plain.reach(0, true) == 1);
 }
 

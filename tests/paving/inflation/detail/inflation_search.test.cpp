@@ -26,12 +26,11 @@ TEST_CASE("the bound grows towards the inflation and never passes it") {
         inflation_search search(planted.problem, {});
         double before = 0;
         double promised = HUGE_VAL;
-        for (int step = 0; step < 15 && !search.exhausted(); ++step) {
-            search.step(
-                [&](inflation_relaxation const& found, bool complete) {
-                    if (complete) promised = std::min(promised, found.approximate_value);
-                },
-                always);
+        search.policy().propose = [&](inflation_relaxation const& found, bool complete) {
+            if (complete) promised = std::min(promised, found.approximate_value);
+        };
+        for (int step = 0; step < 15 && search.next() != nullptr; ++step) {
+            search.step(always);
             double const lower = search.lower();
             CHECK(lower >= before);
             CHECK(lower <= at_truth * (1 + 1e-9));
@@ -55,9 +54,10 @@ TEST_CASE("boxes above the bound are dropped, those with less are kept") {
     double const exact = support::decay_inflation(prior, 0.5, 0.16, 0.0078125);
     inflation_search search(problem, {});
     double const above = 1.5 * exact;
-    search.drop_above(above);
-    for (int step = 0; step < 40 && !search.exhausted(); ++step) {
-        search.step([](inflation_relaxation const&, bool) {}, always);
+    search.policy().above = above;
+    search.policy().propose = [](inflation_relaxation const&, bool) {};
+    for (int step = 0; step < 40 && search.next() != nullptr; ++step) {
+        search.step(always);
     }
     CHECK(search.lower() <= exact * (1 + 1e-6));
     CHECK(search.lower() >= 0.99 * exact);
@@ -74,8 +74,8 @@ TEST_CASE("boxes above the bound are dropped, those with less are kept") {
                           [&](box const& b) { return contains(b, std::vector<double>{p}); }));
     }
     // With a bound that nothing attains, nothing is left but the bound.
-    search.drop_above(0.5 * exact);
-    CHECK(search.exhausted());
+    search.policy().above = 0.5 * exact;
+    CHECK(search.next() == nullptr);
     CHECK(search.lower() == 0.5 * exact);
     CHECK(search.cover().empty());
 }
@@ -83,9 +83,10 @@ TEST_CASE("boxes above the bound are dropped, those with less are kept") {
 TEST_CASE("a point is bounded once and kept") {
     auto const problem = support::decay(interval(1.0), 0.5, 0.25, 0.0625);
     inflation_search search(problem, {});
+    search.policy().propose = [](inflation_relaxation const&, bool) {};
     int steps = 0;
-    for (; !search.exhausted() && steps < 10; ++steps) {
-        search.step([](inflation_relaxation const&, bool) {}, always);
+    for (; search.next() != nullptr && steps < 10; ++steps) {
+        search.step(always);
     }
     CHECK(steps == 2);
     CHECK_THAT(search.lower(), WithinAbs((0.5 - std::exp(-1)) / 0.0625, 1e-6));

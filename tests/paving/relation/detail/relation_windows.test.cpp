@@ -50,10 +50,6 @@ TEST_CASE("equations with all their sensors can be examined, by parts if a pair 
         CHECK(length >= 0.3 - 1e-6);
     }
     CHECK(sharper);
-    for (auto const& w : windows.of_length(1, window_way::direct, 0.5)) {
-        CHECK(w.to - w.from >= 0.5 - 1e-6);
-        CHECK(w.to - w.from <= 0.61);
-    }
 }
 
 TEST_CASE("too many windows are thinned out") {
@@ -70,16 +66,15 @@ TEST_CASE("too many windows are thinned out") {
 TEST_CASE("sensors and assumptions are named") {
     draws d(25);
     auto problem = pendulum_problem(d, {0, 1});
-    relation_options options;
-    options.rate_variation = {{"x1", 7.5}};
-    relation_windows windows(problem, options);
+    relation_windows windows(problem, {});
     REQUIRE(windows.obstacle(1).empty());
     relation_finding direct;
     windows.describe(1, window_way::direct, {{1, 0.1}}, direct);
     CHECK(direct.channels == std::vector<std::string>{"y0", "y1"});
     REQUIRE(direct.assumptions.size() == 3);
     CHECK_THAT(direct.assumptions[0], StartsWith("x0' varies within 0.1 s by at most"));
-    CHECK(direct.assumptions[1] == "x1' varies within 0.1 s by at most 7.5 1/s in S1");
+    CHECK_THAT(direct.assumptions[1],
+               StartsWith("x1' varies within 0.1 s by at most") && EndsWith(" 1/s in S1"));
     CHECK(direct.assumptions[2] == "inputs exact");
     relation_finding parts;
     windows.describe(1, window_way::by_parts, {{0, 1.0}, {1, 0.0}}, parts);

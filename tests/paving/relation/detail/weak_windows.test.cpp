@@ -68,7 +68,7 @@ TEST_CASE("windows under a bump contain the truth without the rate's measurement
         auto const e = measured(d, "S", truth, inputs, {0}, 0.02, static_cast<noise>(n % 4));
         auto const channels = measured_states(b.bound, {&e});
         auto const law =
-            declare_variations(b.bound, {find_rate_scales(b.bound, b.prior, e, channels)}, {});
+            declare_variations(b.bound, {find_rate_scales(b.bound, b.prior, e, channels)});
         auto const motion = observe_motion(b.bound, b.prior, e, channels, {law.front(), {}, {}}, 4);
         auto const windows = weak->over(motion, 0, 0.5, 4);
         CHECK(windows.size() > 20);

@@ -8,6 +8,15 @@ using namespace diagnosis_support;
 
 namespace {
 
+/// A cell of lines without drift.
+time_cell still(double from, double to, leaf_ranges const& at) {
+    time_cell result{from, to, at, {}};
+    for (auto const& x : at.states) result.lines.push_back(cell_line::still(x));
+    for (auto const& u : at.inputs) result.lines.push_back(cell_line::still(u));
+    result.lines.push_back(cell_line::still(at.time));
+    return result;
+}
+
 /// Cells of width `h` around x0 = sin t, x1 = cos t = x0', x2 = 1 + t/4, each to within e.
 std::vector<time_cell> circle(draws& d, double end, double h, double e0, double e1) {
     std::vector<time_cell> cells;
@@ -20,7 +29,7 @@ std::vector<time_cell> circle(draws& d, double end, double h, double e0, double 
             double const shift = off(e);
             return between(std::min(a, b) - e + shift - h * h, std::max(a, b) + e + shift + h * h);
         };
-        cells.push_back(time_cell::still(
+        cells.push_back(still(
             from, to,
             {between(from, to),
              box{side(std::sin(from), std::sin(to), e0), side(std::cos(from), std::cos(to), e1),
@@ -118,7 +127,7 @@ TEST_CASE("a cell in which nothing is known spoils the windows that contain it, 
     auto const set = integrand_set::of(b.g, b.functions, 3, 0);
     auto cells = circle(d, 1, 0.1, 0.01, 0.1);
     cells[5].at.states[2] = interval_traits<interval>::entire();
-    cells[5] = time_cell::still(cells[5].from, cells[5].to, cells[5].at);
+    cells[5] = still(cells[5].from, cells[5].to, cells[5].at);
     window_integrals const integrals(set, cells, {{1, 0}});
     CHECK(is_bounded(integrals.direct(1, 0, 5)));
     CHECK(is_entire(integrals.direct(1, 3, 7)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/run/detail/scalar_run.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
 #include <sivid/verifier/proof/detail/response_audit.hpp>
 
 #include "paving/plain_problem.hpp"

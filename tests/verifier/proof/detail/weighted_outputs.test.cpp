@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/verifier/proof/detail/weighted_outputs.hpp>
 
-#include <sivid/paving/contract/detail/inflation_certificate.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 
 #include "support/catch.hpp"
 #include "support/polynomial_experiments.hpp"

@@ -9,7 +9,6 @@
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/paving/judge/detail/equation_aided_test.hpp>
-#include <sivid/paving/judge/detail/runless_contraction.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>

@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_CONTRACT_DETAIL_CUT_CONTRACTION_HPP
 #define SIVID_PAVING_CONTRACT_DETAIL_CUT_CONTRACTION_HPP
 
-#include <sivid/paving/contract/detail/cut_certificate.hpp>
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/contract/detail/misfit_block.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/space/box.hpp>
 

@@ -17,7 +17,6 @@ struct approximate_cut {
     std::vector<minimax_weight> weights;
     std::vector<double> point; ///< where it is about reached
     bool empty = false;
-    std::size_t exchanges = 0;
 };
 
 /// Maximises \f$ \pm d_j \f$, or another goal, over \f$ d \in [-1,1]^n \f$ with \f$ |f_y(d)| \le
@@ -61,7 +60,6 @@ public:
         };
         result.empty = program.run(violated, 20 * (n + 2)) == dual_simplex::outcome::empty;
         result.point = program.point();
-        result.exchanges = program.exchanges();
         result.weights = constraints_.weights(program.combination());
         return result;
     }

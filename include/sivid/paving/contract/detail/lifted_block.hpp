@@ -3,6 +3,7 @@
 #define SIVID_PAVING_CONTRACT_DETAIL_LIFTED_BLOCK_HPP
 
 #include <sivid/paving/response/combined_polynomial.hpp>
+#include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/linear_program/constraint_blocks.hpp>
 
@@ -33,13 +34,7 @@ struct scaled_polynomials {
         auto const count = r.outputs();
         auto& c = coefficients;
         for (std::size_t v = 0; v < table.variables; ++v) {
-            double const shift = mid(where[v].middle);
-            if (shift == 0) continue;
-            table.shift(v, [&](std::size_t m, std::size_t k) {
-                double* const to = c.data() + m * count;
-                double const* const above = c.data() + k * count;
-                for (std::size_t y = 0; y < count; ++y) to[y] += shift * above[y];
-            });
+            shift(c, table, count, v, mid(where[v].middle));
         }
         for (std::size_t m = 0; m < table.size(); ++m) {
             double factor = 1;

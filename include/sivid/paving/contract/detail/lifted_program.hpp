@@ -2,10 +2,10 @@
 #ifndef SIVID_PAVING_CONTRACT_DETAIL_LIFTED_PROGRAM_HPP
 #define SIVID_PAVING_CONTRACT_DETAIL_LIFTED_PROGRAM_HPP
 
-#include <sivid/paving/contract/detail/cut_certificate.hpp>
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/contract/detail/lifted_block.hpp>
 #include <sivid/paving/contract/detail/oblique_products.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
 
@@ -86,8 +86,6 @@ public:
 
     /// The parameters, then the starts of each experiment.
     [[nodiscard]] shared_unknowns const& unknowns() const { return unknowns_; }
-    /// With the products.
-    [[nodiscard]] std::size_t columns() const { return columns_; }
 
     /// A number that \f$ \pm d_j \f$ does not exceed; 1 when nothing is gained, minus infinity when
     /// it is proved that nothing meets all measurements.
@@ -184,16 +182,13 @@ private:
         for (auto const& [product, tilt] : tilts) {
             bounds.push_back({product.first, product.second, tilt});
         }
-        measured_sum sum(*known_, unknowns_, measured, std::move(target));
-        double const least = sum.outputs.lower_bound(bounds);
         if (cut.empty) {
             // The goal stands beside: what the sum alone is shows whether anything is left.
             measured_sum const rest(*known_, unknowns_, measured, std::move(alone));
             return rest.outputs.lower_bound(bounds) > upper(rest.most) ? -detail::infinity
                                                                        : detail::infinity;
         }
-        if (!std::isfinite(least)) return detail::infinity;
-        return upper(traits::sub(sum.most, traits::point(least)));
+        return measured_sum(*known_, unknowns_, measured, std::move(target)).reach(bounds);
     }
 
     response_list const* known_;

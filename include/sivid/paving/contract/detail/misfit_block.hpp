@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_CONTRACT_DETAIL_MISFIT_BLOCK_HPP
 #define SIVID_PAVING_CONTRACT_DETAIL_MISFIT_BLOCK_HPP
 
-#include <sivid/paving/contract/detail/inflation_certificate.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/space/linear_program/constraint_blocks.hpp>
 

@@ -2,11 +2,11 @@
 #ifndef SIVID_PAVING_CONTRACT_DETAIL_PREDICTED_OUTPUTS_HPP
 #define SIVID_PAVING_CONTRACT_DETAIL_PREDICTED_OUTPUTS_HPP
 
-#include <sivid/paving/contract/detail/cut_certificate.hpp>
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/contract/detail/misfit_block.hpp>
 #include <sivid/paving/contract/detail/start_follower.hpp>
 #include <sivid/paving/contract/detail/start_rule.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/response/misfit.hpp>
 #include <sivid/space/box.hpp>
@@ -253,10 +253,8 @@ private:
         if (of.places != nullptr) start.add(r, {{y, -sign}}, *of.places);
         for (auto const& [unknown, slope] : of.linear)
             start.add_linear(unknown, traits::mul(traits::point(-sign), slope));
-        measured_sum const sum(*measured_, known_, weights, std::move(start));
-        double const least = sum.outputs.lower_bound();
-        if (std::isfinite(least)) {
-            double const most = upper(traits::sub(sum.most, traits::point(least)));
+        double const most = measured_sum(*measured_, known_, weights, std::move(start)).reach();
+        if (most < detail::infinity) {
             auto const below = traits::bounds(-detail::infinity, most);
             range = traits::intersect(range,
                                       traits::add(sign > 0 ? below : traits::neg(below), of.rest));

@@ -161,8 +161,7 @@ private:
         }
         for (auto& w : windows) {
             if (w.from == problem_->experiments[w.experiment].begin) continue;
-            auto const both = intersect(w.start, known_.states(w.experiment, w.from));
-            if (!is_empty(both)) w.start = both;
+            w.start = agreed(w.start, known_.states(w.experiment, w.from));
         }
         return true;
     }

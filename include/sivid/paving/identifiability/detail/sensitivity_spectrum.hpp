@@ -22,16 +22,6 @@ namespace sivid::paving_detail {
 ///   width of the prior, in the coordinate itself or in its logarithm.
 class sensitivity_spectrum {
 public:
-    struct direction {
-        std::vector<double> components;
-        double noticed = 0;
-    };
-    struct motion {
-        motion_kind kind = motion_kind::scaling;
-        std::vector<int> weights;
-        double noticed = 0;
-    };
-
     /// @param there  the sensitivities over `at` and `starts`, whose middles are the first point
     sensitivity_spectrum(identification_problem const& problem, sensitivity_runs const& runs,
                          box const& at, std::vector<box> const& starts,
@@ -70,10 +60,10 @@ public:
     }
 
     /// Of the first point, in the coordinates that suit each unknown.
-    [[nodiscard]] std::vector<direction> directions() const {
+    [[nodiscard]] std::vector<sensitive_direction> directions() const {
         auto const m = scaled(points_.front(), natural());
         approximate_svd const system(m);
-        std::vector<direction> result;
+        std::vector<sensitive_direction> result;
         for (Eigen::Index k = 0; k < system.right.cols(); ++k) {
             Eigen::VectorXd v = system.right.col(k);
             Eigen::Index largest = 0;
@@ -81,15 +71,16 @@ public:
             v /= v(largest);
             result.push_back({{v.begin(), v.end()}, noticed(m, v)});
         }
-        std::stable_sort(result.begin(), result.end(), [](direction const& a, direction const& b) {
-            return a.noticed > b.noticed;
-        });
+        std::stable_sort(result.begin(), result.end(),
+                         [](sensitive_direction const& a, sensitive_direction const& b) {
+                             return a.noticed > b.noticed;
+                         });
         return result;
     }
 
     /// Vectors of small integers that no output notices at any of the points.
-    [[nodiscard]] std::vector<motion> free_motions() const {
-        std::vector<motion> result;
+    [[nodiscard]] std::vector<free_motion> free_motions() const {
+        std::vector<free_motion> result;
         for (auto const kind : {motion_kind::scaling, motion_kind::translation}) {
             auto const columns = columns_of(kind);
             Eigen::MatrixXd all(0, static_cast<Eigen::Index>(unknowns_.size()));
@@ -118,8 +109,8 @@ public:
     }
 
     /// The same at the first point for those that no output notices by a half-width of its bound.
-    [[nodiscard]] std::vector<motion> nearly_free_motions() const {
-        std::vector<motion> result;
+    [[nodiscard]] std::vector<free_motion> nearly_free_motions() const {
+        std::vector<free_motion> result;
         auto all_known = free_motions();
         for (auto const kind : {motion_kind::scaling, motion_kind::translation}) {
             auto const columns = columns_of(kind);
@@ -237,9 +228,9 @@ private:
         return m.rows() == 0 ? 0.0 : (m * v).cwiseAbs().maxCoeff();
     }
 
-    [[nodiscard]] std::vector<motion> rounded(std::vector<Eigen::VectorXd> const& space,
-                                              coordinates const& how, motion_kind kind,
-                                              double tolerance) const {
+    [[nodiscard]] std::vector<free_motion> rounded(std::vector<Eigen::VectorXd> const& space,
+                                                   coordinates const& how, motion_kind kind,
+                                                   double tolerance) const {
         if (space.empty()) return {};
         Eigen::MatrixXd basis(space.front().size(), static_cast<Eigen::Index>(space.size()));
         for (std::size_t k = 0; k < space.size(); ++k) {
@@ -251,9 +242,9 @@ private:
             basis.row(static_cast<Eigen::Index>(columns.size())) *= prior_width(c, how[c]);
             columns.push_back(c);
         }
-        std::vector<motion> result;
+        std::vector<free_motion> result;
         for (auto const& w : approximate_integer_basis(basis, tolerance, 4)) {
-            motion m{kind, std::vector<int>(unknowns_.size(), 0), 0};
+            free_motion m{kind, std::vector<int>(unknowns_.size(), 0), 0};
             for (std::size_t k = 0; k < columns.size(); ++k) m.weights[columns[k]] = w[k];
             result.push_back(std::move(m));
         }
@@ -261,7 +252,7 @@ private:
     }
 
     /// The motion in widths of the prior until it has crossed the first of them.
-    [[nodiscard]] Eigen::VectorXd crossing(motion const& m) const {
+    [[nodiscard]] Eigen::VectorXd crossing(free_motion const& m) const {
         Eigen::VectorXd v = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m.weights.size()));
         auto const how = m.kind == motion_kind::scaling ? coordinate::logarithm : coordinate::plain;
         for (std::size_t c = 0; c < m.weights.size(); ++c) {
@@ -271,9 +262,9 @@ private:
         return v / v.cwiseAbs().maxCoeff();
     }
     /// Whether at the first point the motion goes nearly where others together go.
-    [[nodiscard]] bool known(motion const& m, std::vector<motion> const& others,
+    [[nodiscard]] bool known(free_motion const& m, std::vector<free_motion> const& others,
                              double tolerance) const {
-        auto const velocity = [&](motion const& x) {
+        auto const velocity = [&](free_motion const& x) {
             Eigen::VectorXd v(static_cast<Eigen::Index>(unknowns_.size()));
             for (std::size_t c = 0; c < unknowns_.size(); ++c) {
                 double const size =

@@ -2,8 +2,8 @@
 #ifndef SIVID_PAVING_INFLATION_DETAIL_INFLATION_RELAXATION_HPP
 #define SIVID_PAVING_INFLATION_DETAIL_INFLATION_RELAXATION_HPP
 
-#include <sivid/paving/contract/detail/inflation_certificate.hpp>
 #include <sivid/paving/contract/detail/misfit_block.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/response/misfit.hpp>
 #include <sivid/paving/response/response.hpp>

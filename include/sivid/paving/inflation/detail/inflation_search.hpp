@@ -30,7 +30,7 @@ public:
 
     std::vector<std::size_t> outliers;
     proposal propose = nullptr;
-    double above = detail::infinity; ///< boxes with more are of no interest
+    double above = detail::infinity; ///< boxes with more are of no interest from now on
     double target = 1;               ///< with outliers, bounds beyond this are not worth extra work
 
     [[nodiscard]] static bool before(node const& a, node const& b) { return a.lower < b.lower; }
@@ -57,51 +57,29 @@ public:
 /// hold the bound back.
 /// @guarantee  every parameter of the prior lies in a box of `cover()`, or its inflation is at
 ///             least `lower()` and more than the bound above which boxes were dropped
-class inflation_search {
+class inflation_search : public response_search<inflation_policy> {
 public:
-    using proposal = inflation_policy::proposal;
-
     inflation_search(identification_problem const& problem, data_test_options const& options)
-        : search_(problem, options, {.outliers = outlier_budgets(problem)}, problem.prior) {}
-
-    /// Boxes with more are of no interest from now on.
-    void drop_above(double bound) { policy().above = std::min(policy().above, bound); }
-    /// With outliers, bounds beyond this are not worth extra work.
-    void aim_at(double target) { policy().target = target; }
+        : response_search(problem, options, {.outliers = outlier_budgets(problem)}, problem.prior) {
+    }
 
     /// Proved: no parameter of the prior has a smaller inflation.
     [[nodiscard]] double lower() const {
-        double least = search_.policy().above;
-        if (auto const* next = search_.next()) least = std::min(least, next->lower);
-        for (auto const& b : search_.stuck()) least = std::min(least, b.lower);
+        double least = policy().above;
+        if (auto const* best = next()) least = std::min(least, best->lower);
+        for (auto const& b : stuck()) least = std::min(least, b.lower);
         return least;
     }
-    [[nodiscard]] bool exhausted() const { return search_.next() == nullptr; }
-    [[nodiscard]] std::size_t tested() const { return search_.tested(); }
-    [[nodiscard]] std::size_t integrations() const { return search_.integrations(); }
-
     /// All boxes that may contain parameters with an inflation of at most `above`.
     [[nodiscard]] std::vector<box> cover() const {
         std::vector<box> result;
-        for (auto const* list : {&search_.waiting(), &search_.stuck()}) {
+        for (auto const* list : {&waiting(), &stuck()}) {
             for (auto const& b : *list) {
-                if (!search_.policy().drops(b)) result.push_back(b.set);
+                if (!policy().drops(b)) result.push_back(b.set);
             }
         }
         return result;
     }
-
-    /// Splits the box with the least bound, or integrates over several.
-    /// @param go_on  false ends an integration between two experiments
-    void step(proposal const& propose, std::function<bool()> const& go_on) {
-        policy().propose = propose;
-        search_.step(go_on);
-    }
-
-private:
-    [[nodiscard]] inflation_policy& policy() { return search_.policy(); }
-
-    response_search<inflation_policy> search_;
 };
 
 } // namespace sivid

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_JUDGE_DETAIL_CORE_BOX_HPP
 #define SIVID_PAVING_JUDGE_DETAIL_CORE_BOX_HPP
 
-#include <sivid/paving/contract/detail/cut_certificate.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/space/box.hpp>

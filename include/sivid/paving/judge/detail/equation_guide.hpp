@@ -77,8 +77,7 @@ private:
             auto const& cell = motion.cells[k];
             if (!(cell.from <= t && t <= cell.to)) continue;
             for (std::size_t i = 0; i < result.size(); ++i) {
-                auto const both = traits::intersect(result[i], cell.at.states[i]);
-                if (!is_empty(both)) result[i] = both;
+                result[i] = agreed(result[i], cell.at.states[i]);
             }
         }
         return result;

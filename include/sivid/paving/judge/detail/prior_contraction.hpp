@@ -14,8 +14,8 @@
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/detail/equation_aided_test.hpp>
 #include <sivid/paving/judge/detail/equation_guide.hpp>
-#include <sivid/paving/judge/detail/runless_contraction.hpp>
 #include <sivid/paving/judge/detail/shape_contraction.hpp>
 #include <sivid/paving/work_limit.hpp>
 

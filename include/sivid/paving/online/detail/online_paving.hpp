@@ -49,10 +49,7 @@ public:
     [[nodiscard]] std::size_t regions() const { return living().size(); }
     /// The smallest box around all that is left; empty sides when nothing is.
     [[nodiscard]] box hull() const {
-        box around(prior_.size());
-        for (std::size_t j = 0; j < around.size(); ++j) {
-            around[j] = interval_traits<interval>::empty();
-        }
+        auto around = empty_box(prior_.size());
         for (auto const& b : boxes_) around = sivid::hull(around, b.set);
         return around;
     }
@@ -319,11 +316,11 @@ private:
 
     void narrow_regions() {
         for (auto const& r : living()) {
-            std::optional<box> rest;
+            auto rest = empty_box(prior_.size());
             for (auto const& b : boxes_) {
-                if (b.home == r) rest = rest ? sivid::hull(*rest, b.set) : b.set;
+                if (b.home == r) rest = sivid::hull(rest, b.set);
             }
-            if (volume(*rest) < 0.7 * volume(r->live)) r->narrow(*rest);
+            if (volume(rest) < 0.7 * volume(r->live)) r->narrow(rest);
         }
     }
     /// When what is left has become smaller, one region may do for all of it: cheaper to carry on,

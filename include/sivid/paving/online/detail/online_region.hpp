@@ -2,9 +2,9 @@
 #ifndef SIVID_PAVING_ONLINE_DETAIL_ONLINE_REGION_HPP
 #define SIVID_PAVING_ONLINE_DETAIL_ONLINE_REGION_HPP
 
-#include <sivid/paving/contract/detail/inflation_certificate.hpp>
+#include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/detail/growing_response.hpp>
-#include <sivid/paving/run/detail/continued_run.hpp>
+#include <sivid/paving/run/detail/experiment_run_class.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/response_judgement.hpp>
 #include <sivid/paving/online/detail/online_region.hpp>
-#include <sivid/paving/run/detail/continued_run.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -31,8 +31,7 @@ public:
         for (auto const& e : problem.experiments) {
             flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, e.inputs,
                                                     region_of_runs{e.initial, problem.prior}));
-            // What uncertain inputs cost, no smaller box gives back.
-            if (flows_.back()->uncertain()) options_.run.hopeless = 1e300;
+            options_.run = paving_detail::options_for(*flows_.back(), std::move(options_.run));
             runs_.push_back(make_continued_run(*flows_.back(), e, problem.prior, options_.run));
             arrived_.emplace_back();
             front_.push_back(e.begin);
@@ -174,8 +173,8 @@ private:
                 for (std::size_t c = 0; c < outputs[f].size(); ++c) {
                     auto& y = outputs[f][c];
                     auto const& bound = samples[together[c]].bound;
-                    hopeless = hopeless && !(2 * y.radius <= options_.run.hopeless *
-                                                                 (2 * y.spread() + width(bound)));
+                    hopeless = hopeless && paving_detail::is_hopeless(y.radius, y.spread(), bound,
+                                                                      options_.run.hopeless);
                     double const reach = (y.spread() + y.radius) * (1 + 1e-9);
                     double const least = y.coefficients[0] - reach;
                     double const most = y.coefficients[0] + reach;

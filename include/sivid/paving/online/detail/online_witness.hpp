@@ -6,8 +6,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/judge/data_test.hpp>
-#include <sivid/paving/run/detail/continued_run.hpp>
-#include <sivid/paving/run/detail/doubleton_continuation.hpp>
+#include <sivid/paving/run/detail/doubleton_run.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,18 +4,115 @@
 
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/products/detail/preimage_paving.hpp>
 #include <sivid/paving/products/detail/preimage_volume.hpp>
 #include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/set_test.hpp>
+#include <sivid/paving/subpaving.hpp>
+#include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace sivid {
 
+/// Tests boxes of the original parameters by a paving of the reduced ones, without any integration:
+/// with it `invert` draws a paving of the original prior.
+class preimage_test {
+    using traits = interval_traits<interval>;
+
+public:
+    /// @param reduced  covers the reduced prior, outside boxes kept; both are kept by reference
+    preimage_test(reduction const& map, subpaving const& reduced)
+        : map_(&map), reduced_(&reduced) {}
+
+    /// Which boxes an image meets; all that the image of a part can meet.
+    struct knowledge {
+        box image;
+        std::vector<std::size_t> met;
+    };
+
+    /// @guarantee  inside: every point maps into inside boxes; outside: none maps into a box that
+    ///             is not
+    [[nodiscard]] assessment<knowledge>
+    operator()(box const& p, std::shared_ptr<knowledge const> const& given) const {
+        assessment<knowledge> result{.rest = p};
+        auto found = std::make_shared<knowledge>();
+        found->image = map_->forward(p);
+        box around;
+        auto const look = [&](std::size_t k) {
+            auto const& b = reduced_->boxes()[k];
+            auto const part = intersect(b.set, found->image);
+            if (is_empty(part)) return;
+            found->met.push_back(k);
+            if (b.verdict == box_verdict::outside) return;
+            around = around.size() == 0 ? part : hull(around, part);
+        };
+        if (given && subset(found->image, given->image)) {
+            for (auto const k : given->met) look(k);
+        } else {
+            for (std::size_t k = 0; k < reduced_->boxes().size(); ++k) look(k);
+        }
+        if (is_empty(found->image) || around.size() == 0) {
+            result.verdict = box_verdict::outside;
+            return result;
+        }
+        result.rest = map_->backward(p, around);
+        if (is_empty(result.rest)) {
+            result.verdict = box_verdict::outside;
+            return result;
+        }
+        auto const image = map_->forward(result.rest);
+        if (subset(image, found->image) && is_inside(image, found->met)) {
+            result.verdict = box_verdict::inside;
+        }
+        result.knowledge = std::move(found);
+        return result;
+    }
+
+private:
+    /// Whether inside boxes cover r: the boxes cover the prior, so no other meets its interior.
+    [[nodiscard]] bool is_inside(box const& r, std::vector<std::size_t> const& met) const {
+        return std::none_of(met.begin(), met.end(), [&](std::size_t index) {
+            auto const& b = reduced_->boxes()[index];
+            if (b.verdict == box_verdict::inside) return false;
+            for (std::size_t k = 0; k < r.size(); ++k) {
+                double const lo = b.set[k].lower();
+                double const hi = b.set[k].upper();
+                bool const flat = !(r[k].lower() < r[k].upper()) || !(lo < hi);
+                bool const meets = flat ? lo <= r[k].upper() && r[k].lower() <= hi
+                                        : lo < r[k].upper() && r[k].lower() < hi;
+                if (!meets) return false;
+            }
+            return true;
+        });
+    }
+
+    reduction const* map_;
+    subpaving const* reduced_;
+};
+
 namespace paving_detail {
+
+/// What boxes that are not outside leave of the combinations of a problem's parameters.
+/// @param reduced  what is left of the reduced parameters; null where these are the problem's own
+template <class Boxes>
+[[nodiscard]] std::vector<combination_hull> hulls_of(dependence_structure const& structure,
+                                                     box const* reduced, Boxes const& boxes) {
+    std::vector<combination_hull> result;
+    for (std::size_t c = 0; c < structure.combinations.size(); ++c) {
+        auto const& what = structure.combinations[c];
+        auto range = reduced != nullptr ? (*reduced)[c] : interval_traits<interval>::empty();
+        for (auto const& b : boxes) {
+            if (reduced == nullptr && b.verdict != box_verdict::outside)
+                range = hull(range, what.over(b.set));
+        }
+        result.push_back({what, range});
+    }
+    return result;
+}
 
 /// The paving of the prior by the test. Sides that do not act are left out while it is drawn: no
 /// box is cut there.

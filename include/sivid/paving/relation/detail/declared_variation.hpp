@@ -3,7 +3,6 @@
 #define SIVID_PAVING_RELATION_DETAIL_DECLARED_VARIATION_HPP
 
 #include <sivid/model/graph/graph_range.hpp>
-#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/paving/relation/channel_tube.hpp>
 #include <sivid/paving/relation/detail/model_variation.hpp>
 #include <sivid/paving/relation/input_range.hpp>
@@ -13,10 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace sivid {
@@ -86,6 +82,13 @@ find_rate_scales(bound_model const& model, box const& prior, experiment const& e
     return result;
 }
 
+/// A bound that reads well. Itself where it is 0 or infinite.
+[[nodiscard]] inline double two_digits_upward(double v) {
+    if (!(v > 0) || !std::isfinite(v)) return v;
+    double const unit = std::pow(10.0, std::floor(std::log10(v)) - 1);
+    return std::ceil(v / unit) * unit;
+}
+
 /// Declares for each experiment how much each state's rate may vary within one sampling gap: by its
 /// change as above, plus a tenth of its size in the experiment where that is greatest. A rate that
 /// is a function of states only (a kinematic equation) varies by at most one and a half times what
@@ -93,12 +96,9 @@ find_rate_scales(bound_model const& model, box const& prior, experiment const& e
 ///   A first choice, of which `above_model` makes sure that the model does not contradict it.
 ///   An assumption, not a theorem: it belongs into the list of assumptions. Smooth motion meets it
 ///   with room to spare; an actuator that switches, or a gust, shows in the change over three gaps.
-///   Not met by what comes and goes between two samples, such as the hard sticking of dry friction:
-///   then declare more.
-/// @param own  declared by the user for states by name; the rest gets the default
+///   Not met by what comes and goes between two samples, such as the hard sticking of dry friction.
 [[nodiscard]] inline std::vector<std::vector<rate_variation>>
-declare_variations(bound_model const& model, std::vector<rate_scales> const& scales,
-                   std::map<std::string, double> const& own) {
+declare_variations(bound_model const& model, std::vector<rate_scales> const& scales) {
     auto const n = model.state_count();
     std::vector<double> greatest(n, 0.0);
     for (auto const& s : scales) {
@@ -117,13 +117,7 @@ declare_variations(bound_model const& model, std::vector<rate_scales> const& sca
                 }
                 law = std::min(law, 1.5 * s.period[i] * turn);
             }
-            if (law > 0 && std::isfinite(law)) { // two digits, upward, so that it reads well
-                double const unit = std::pow(10.0, std::floor(std::log10(law)) - 1);
-                law = std::ceil(law / unit) * unit;
-            }
-            auto const stated = own.find(model.about.states[i].name);
-            if (stated != own.end()) law = stated->second;
-            laws.push_back({s.period[i], std::min(law, 1e100)});
+            laws.push_back({s.period[i], std::min(two_digits_upward(law), 1e100)});
         }
     }
     return result;
@@ -134,39 +128,27 @@ declare_variations(bound_model const& model, std::vector<rate_scales> const& sca
 /// period's length, along any motion of the model that meets the bounds, and along any in the tubes
 /// that the declared variations leave. Infinite (1e100) where no such bound is found: the samples
 /// are too far apart for the motion.
-/// @param own    declared by the user: kept
-/// @param go_on  asked now and then; once false, what is not declared by the user has no bound; may
-///               be empty
-/// @throws std::invalid_argument if the user's declaration is less than what the model's rate
-///         varies by for every parameter of the prior
+/// @param go_on  asked now and then; once false, no measured state has a bound; may be empty
 [[nodiscard]] inline std::vector<rate_variation>
 above_model(bound_model const& model, box const& prior, experiment const& e,
             std::vector<std::optional<std::size_t>> const& channels,
-            std::vector<rate_variation> laws, std::map<std::string, double> const& own,
-            std::function<bool()> const& go_on = {}) {
+            std::vector<rate_variation> laws, std::function<bool()> const& go_on = {}) {
     auto const n = model.state_count();
     std::vector<double> declared, periods;
-    std::vector<bool> fixed;
     for (std::size_t i = 0; i < n; ++i) {
         declared.push_back(laws[i].variation);
         periods.push_back(laws[i].period);
-        fixed.push_back(!channels[i] || own.count(model.about.states[i].name) > 0);
     }
     auto const open = [&] {
         for (std::size_t i = 0; i < n; ++i)
-            if (!fixed[i]) laws[i].variation = 1e100;
+            if (channels[i]) laws[i].variation = 1e100;
         return laws;
     };
     if (go_on && !go_on()) return open();
     model_variation const by_model(model, prior, e, channels);
     auto const whole = by_model.of_model(periods);
-    auto const shown = [](double v) { // two digits, upward, so that it reads well
-        if (!(v > 0) || !std::isfinite(v)) return v;
-        double const unit = std::pow(10.0, std::floor(std::log10(v)) - 1);
-        return std::ceil(v / unit) * unit;
-    };
     for (std::size_t i = 0; i < n; ++i) {
-        if (!fixed[i] && declared[i] < whole[i]) declared[i] = shown(whole[i]);
+        if (channels[i] && declared[i] < whole[i]) declared[i] = two_digits_upward(whole[i]);
     }
     constexpr int patience = 25; // then what still grows has no bound
     for (int pass = 0;; ++pass) {
@@ -174,18 +156,9 @@ above_model(bound_model const& model, box const& prior, experiment const& e,
         auto const found = by_model.in_tubes(declared, periods);
         bool grew = false;
         for (std::size_t i = 0; i < n; ++i) {
-            if (fixed[i]) {
-                if (!channels[i] || !(found.least[i] > declared[i])) continue;
-                throw std::invalid_argument(
-                    "relations: the rate of " + model.about.states[i].name +
-                    " is declared to vary by at most " + nearest_text(declared[i], 6) + " within " +
-                    nearest_text(periods[i], 6) + " s, but in " + e.name + " the model varies by " +
-                    nearest_text(found.least[i], 6) +
-                    " or more, whatever the parameters of the prior: declare more");
-            }
-            if (found.most[i] <= declared[i]) continue;
+            if (!channels[i] || found[i] <= declared[i]) continue;
             grew = true;
-            declared[i] = pass < patience ? shown(1.02 * found.most[i]) : HUGE_VAL;
+            declared[i] = pass < patience ? two_digits_upward(1.02 * found[i]) : HUGE_VAL;
         }
         if (!grew) break;
     }
@@ -193,20 +166,19 @@ above_model(bound_model const& model, box const& prior, experiment const& e,
     return laws;
 }
 
-/// Declared variations of several experiments and their states: by the data, the user and the
-/// model.
-/// @throws std::invalid_argument  as above
-[[nodiscard]] inline std::vector<std::vector<rate_variation>> laws_above_model(
-    bound_model const& model, box const& prior, std::vector<experiment const*> const& experiments,
-    std::vector<std::optional<std::size_t>> const& channels,
-    std::map<std::string, double> const& own, std::function<bool()> const& go_on = {}) {
+/// Declared variations of several experiments and their states: by the data and the model.
+[[nodiscard]] inline std::vector<std::vector<rate_variation>>
+laws_above_model(bound_model const& model, box const& prior,
+                 std::vector<experiment const*> const& experiments,
+                 std::vector<std::optional<std::size_t>> const& channels,
+                 std::function<bool()> const& go_on = {}) {
     std::vector<rate_scales> scales;
     for (auto const* e : experiments) {
         scales.push_back(find_rate_scales(model, prior, *e, channels));
     }
-    auto result = declare_variations(model, scales, own);
+    auto result = declare_variations(model, scales);
     for (std::size_t e = 0; e < experiments.size(); ++e) {
-        result[e] = above_model(model, prior, *experiments[e], channels, result[e], own, go_on);
+        result[e] = above_model(model, prior, *experiments[e], channels, result[e], go_on);
     }
     return result;
 }

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_RELATION_DETAIL_DERIVATIVE_BOUND_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -74,8 +75,7 @@ public:
             auto const change = traits::add(traits::sub(last.q, v.q0), v.moment);
             auto const here = traits::div(change, v.T, undefined);
             if (undefined || !is_bounded(here)) break;
-            auto const both = traits::intersect(result.rate, here);
-            if (!is_empty(both)) result.rate = both;
+            result.rate = agreed(result.rate, here);
             if (width(here) > 4 * width(result.rate)) break; // r does too much
             if (k < kept) continue;
             result.views.push_back(v);
@@ -93,8 +93,7 @@ public:
                 auto const change =
                     traits::add(traits::sub(b.q0, a.q0), traits::sub(a.moment, b.moment));
                 auto const here = traits::div(change, traits::sub(a.T, b.T), undefined);
-                auto const both = undefined ? result : traits::intersect(result, here);
-                if (!is_empty(both)) result = both;
+                if (!undefined) result = agreed(result, here);
             }
         }
         return result;

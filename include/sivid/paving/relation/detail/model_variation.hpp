@@ -49,11 +49,6 @@ public:
 
     /// For each measured state something for each of its gaps, or one thing.
     using amounts = std::vector<std::vector<double>>;
-    /// How much rates vary over windows of their length, per measured state.
-    struct bounds {
-        std::vector<double> most;  ///< at most, for every parameter; infinite where not known
-        std::vector<double> least; ///< at least, for every parameter: proved where the model holds
-    };
 
     /// Over all motions of the model that keep the bounds of the measured states, for any parameter
     /// of the prior; by enclosures over each gap from both of its ends. States of which nothing is
@@ -62,7 +57,7 @@ public:
     [[nodiscard]] std::vector<double> of_model(std::vector<double> const& periods) const {
         auto const measure = [&](std::vector<box> const& states, std::vector<box> const& rates) {
             amounts result;
-            for (double const v : variations(states, rates, periods).most) result.push_back({v});
+            for (double const v : variations(states, rates, periods)) result.push_back({v});
             return result;
         };
         auto const in_gaps = [&](amounts const& of_states) {
@@ -122,8 +117,8 @@ public:
     }
     /// Over all states of the tubes that declared variations leave, whose rates are as far from the
     /// secants as those allow: whatever the other equations do.
-    [[nodiscard]] bounds in_tubes(std::vector<double> const& declared,
-                                  std::vector<double> const& periods) const {
+    [[nodiscard]] std::vector<double> in_tubes(std::vector<double> const& declared,
+                                               std::vector<double> const& periods) const {
         std::vector<box> rates;
         auto range = cells_.range_of_rates();
         auto const in_gaps = in_gaps_of(declared, periods);
@@ -205,8 +200,7 @@ private:
     [[nodiscard]] static box both(box const& a, box const& b) {
         box result = b;
         for (std::size_t i = 0; i < b.size(); ++i) {
-            auto const common = intersect(a[i], b[i]);
-            if (!is_empty(common)) result[i] = common;
+            result[i] = agreed(b[i], a[i]);
         }
         return result;
     }
@@ -232,23 +226,23 @@ private:
                 if (!tubes[i] || !tubes[i]->covers(from, to)) continue;
                 auto const seen = tubes[i]->over(from, to);
                 if (!is_bounded(seen)) continue;
-                auto const common = reach.empty() ? seen : intersect(seen, x[i]);
-                x[i] = is_empty(common) ? seen : common;
+                x[i] = reach.empty() ? seen : agreed(seen, x[i]);
             }
             result.push_back(std::move(x));
         }
         return result;
     }
 
-    [[nodiscard]] bounds variations(std::vector<box> const& states, std::vector<box> const& rates,
-                                    std::vector<double> const& periods) const {
+    /// How much the rate of each measured state varies at most over windows of its length, for
+    /// every parameter; infinite where that is not known.
+    [[nodiscard]] std::vector<double> variations(std::vector<box> const& states,
+                                                 std::vector<box> const& rates,
+                                                 std::vector<double> const& periods) const {
         auto const n = cells_.samples().size();
         auto const all = stretches(states, rates);
-        bounds result{std::vector<double>(n, HUGE_VAL), std::vector<double>(n, 0.0)};
+        std::vector<double> result(n, HUGE_VAL);
         for (std::size_t i = 0; i < n && cells_.size() > 0; ++i) {
-            if (!cells_.samples()[i]) continue;
-            result.most[i] = most_change(all[i], periods[i]);
-            result.least[i] = least_change(all[i], periods[i]);
+            if (cells_.samples()[i]) result[i] = most_change(all[i], periods[i]);
         }
         return result;
     }
@@ -301,7 +295,6 @@ private:
                 steady = traits::add(steady, traits::mul(slope, h));
             }
         }
-        result.net = smooth ? traits::add(steady, sudden) : traits::entire();
         if (!smooth) {
             result.up = result.down = HUGE_VAL;
             return result;

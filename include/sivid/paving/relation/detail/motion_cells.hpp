@@ -9,7 +9,7 @@
 #include <sivid/paving/relation/input_range.hpp>
 #include <sivid/paving/relation/integrand_set.hpp>
 #include <sivid/paving/relation/state_samples.hpp>
-#include <sivid/paving/relation/time_grid.hpp>
+#include <sivid/paving/relation/time_cell.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -215,13 +215,7 @@ private:
         if (!(end > e.begin)) return;
         auto const gaps = static_cast<double>(times.size());
         double const pieces = gaps > 20000 ? 1 : gaps > 5000 ? 2 : 4;
-        for (auto const& u : e.inputs) {
-            auto const* sampled = std::get_if<sampled_signal>(&u);
-            if (sampled == nullptr) continue;
-            for (double const t : sampled->times()) {
-                if (t > e.begin && t < end) times.push_back(t);
-            }
-        }
+        add_knots(times, e.inputs, e.begin, end);
         auto const grid = refined_times(std::move(times), spacing / pieces);
         for (std::size_t k = 0; k + 1 < grid.size(); ++k) {
             cell c{grid[k], grid[k + 1], box(e.inputs.size()), {}};
@@ -234,11 +228,6 @@ private:
         }
     }
 
-    /// What is in both; the first where nothing is.
-    [[nodiscard]] static interval agreed(interval const& a, interval const& b) {
-        auto const common = intersect(a, b);
-        return is_empty(common) ? a : common;
-    }
     /// Encloses a state at the end of a cell, from its own equation as one that is linear in it,
     /// \f$ y' = g(t) + J(t) y \f$ for \f$ y = x_i - c \f$: what damps itself does not spread.
     /// @param start  at the begin, @param over  all states over the cell
@@ -280,7 +269,7 @@ private:
             auto const rates = rates_in(range, c, guess);
             settled = true;
             for (std::size_t i = 0; i < n; ++i) {
-                auto const next = clipped(traits::add(at[i], traits::mul(time, rates[i])), most[i]);
+                auto const next = agreed(most[i], traits::add(at[i], traits::mul(time, rates[i])));
                 auto const& g = guess[i];
                 bool const below = g.lower() < next.lower() || g.lower() <= most[i].lower();
                 bool const above = next.upper() < g.upper() || most[i].upper() <= g.upper();
@@ -293,19 +282,13 @@ private:
         // One step inward.
         auto const rates = rates_in(range, c, guess);
         for (std::size_t i = 0; i < n; ++i) {
-            auto const common =
-                intersect(guess[i], traits::add(at[i], traits::mul(time, rates[i])));
-            if (!is_empty(common)) guess[i] = common;
+            guess[i] = agreed(guess[i], traits::add(at[i], traits::mul(time, rates[i])));
         }
         return guess;
     }
-    [[nodiscard]] static interval clipped(interval const& x, interval const& most) {
-        auto const common = intersect(x, most);
-        return is_empty(common) ? most : common;
-    }
     [[nodiscard]] static interval grown(interval const& x, interval const& most) {
         double const more = 0.1 * width(x) + 1e-12;
-        return clipped(traits::add(x, traits::bounds(-more, more)), most);
+        return agreed(most, traits::add(x, traits::bounds(-more, more)));
     }
     [[nodiscard]] std::optional<interval> sample_at(std::size_t i, double t) const {
         if (!samples_[i]) return std::nullopt;

@@ -152,8 +152,7 @@ private:
                     auto const at = std::lower_bound(times_.begin(), times_.end(), t);
                     if (at == times_.end() || *at != t) continue;
                     auto& known = own[static_cast<std::size_t>(at - times_.begin())];
-                    auto const both = traits::intersect(known, cell.at.states[p.q]);
-                    if (!is_empty(both)) known = both;
+                    known = agreed(known, cell.at.states[p.q]);
                 }
             }
         }
@@ -276,8 +275,7 @@ private:
                 fine = traits::add(fine, traits::sub(mean_product(left, lines[k]), centre));
                 swung = traits::add(swung, moved(left, k));
             }
-            auto const both = smooth ? traits::intersect(plain, fine) : plain;
-            result.mean[rising] = is_empty(both) ? plain : both; // empty: no motion is there
+            result.mean[rising] = smooth ? agreed(plain, fine) : plain;
             result.swing[rising] = smooth ? std::min(rad(plain), swung.upper()) : rad(plain);
         }
         return result;
@@ -305,8 +303,7 @@ private:
                 swing = traits::add(swing, traits::point(mag(moved)));
             }
             auto& own = found[last];
-            auto const both = traits::intersect(own.mean[rising], sum);
-            if (!is_empty(both)) own.mean[rising] = both;
+            own.mean[rising] = agreed(own.mean[rising], sum);
             own.swing[rising] = std::min(own.swing[rising], swing.upper());
         }
     }

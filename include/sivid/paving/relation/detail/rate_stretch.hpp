@@ -5,18 +5,16 @@
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <vector>
 
 namespace sivid {
 
 /// What a rate may do over a stretch of time: rise and fall in proportion to the time in it, and
-/// beside that at any moment; what it changes by in all; and where it lies.
+/// beside that at any moment; and where it lies.
 struct rate_stretch {
     double from = 0, to = 0;
     double rise = 0, fall = 0; ///< over the whole stretch, at most
     double up = 0, down = 0;   ///< at any moment in it, at most
-    interval net{0.0};
     interval range{0.0};
 };
 
@@ -47,22 +45,6 @@ struct rate_stretch {
     for (auto const& s : all) {
         most = std::max(most, most_change(all, s.from, s.from + period));
         most = std::max(most, most_change(all, std::max(s.to - period, all.front().from), s.to));
-    }
-    return most;
-}
-
-/// What it changes by at least within some time of that length.
-[[nodiscard]] inline double least_change(std::vector<rate_stretch> const& all, double period) {
-    using traits = interval_traits<interval>;
-    double most = 0;
-    for (std::size_t first = 0; first < all.size(); ++first) {
-        auto change = traits::point(0.0);
-        for (auto k = first; k < all.size(); ++k) {
-            if (all[k].to - all[first].from > period * (1 + 1e-9)) break;
-            change = traits::add(change, all[k].net);
-            if (!is_bounded(change)) break;
-            most = std::max(most, mig(change));
-        }
     }
     return most;
 }

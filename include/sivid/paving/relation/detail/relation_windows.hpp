@@ -6,7 +6,6 @@
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/text/nearest_text.hpp>
-#include <sivid/paving/relation/detail/damping.hpp>
 #include <sivid/paving/relation/detail/declared_variation.hpp>
 #include <sivid/paving/relation/detail/observed_motion.hpp>
 #include <sivid/paving/relation/detail/relation_row.hpp>
@@ -15,7 +14,7 @@
 #include <sivid/paving/relation/detail/weak_windows.hpp>
 #include <sivid/paving/relation/detail/window_integrals.hpp>
 #include <sivid/paving/relation/relation_finding.hpp>
-#include <sivid/paving/relation/time_grid.hpp>
+#include <sivid/paving/relation/time_cell.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +38,7 @@ public:
     /// @param problem  outlives this object
     /// @param suspect  outlives this object; none: all sensors are right
     /// @param source   of what is known between samples
-    /// @throws std::invalid_argument if the problem is not valid, or declares variations of rates
-    ///         that the model contradicts
+    /// @throws std::invalid_argument if the problem is not valid
     relation_windows(identification_problem const& problem, relation_options const& options,
                      suspected_sensor const* suspect = nullptr,
                      tube_source source = tube_source::declared)
@@ -134,7 +132,40 @@ public:
 
     /// All windows between the shortest and the longest; of too many every so many.
     [[nodiscard]] std::vector<window_row> all(std::size_t i, window_way way) {
-        return windows(i, way, options_.shortest, options_.longest);
+        double const shortest = options_.shortest, longest = options_.longest;
+        std::vector<window_row> result;
+        if (is_stated(way))
+            return stated_.windows(i, way == window_way::stated_middle, motions_, shortest, longest,
+                                   options_.go_on);
+        if (way == window_way::weak) {
+            auto const weak = weak_form(i);
+            for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
+                auto more = weak->over(motions_[m], m, shortest, longest, options_.go_on);
+                std::move(more.begin(), more.end(), std::back_inserter(result));
+            }
+            return result;
+        }
+        auto& e = integrated(i, way);
+        for (std::size_t pass = 0, total = 0; pass < 2; ++pass) {
+            std::size_t count = 0;
+            auto const stride = total / options_.most_windows + 1;
+            for (std::size_t m = 0; m < motions_.size(); ++m) {
+                if (!own_tube(e.row, motions_[m])) continue;
+                auto const& times = own_tube(e.row, motions_[m])->times();
+                for (std::size_t b = 1; b < times.size() && !stopped(); ++b) {
+                    for (std::size_t a = b; a-- > 0;) {
+                        double const length = times[b] - times[a];
+                        if (length > longest * (1 + 1e-9)) break;
+                        if (length < shortest * (1 - 1e-9) || ++count % stride != 0) continue;
+                        if (pass == 0) continue;
+                        auto found = row_over(e, way, m, times[a], times[b]);
+                        if (found) result.push_back(*std::move(found));
+                    }
+                }
+            }
+            total = count;
+        }
+        return result;
     }
     /// Windows of many lengths, from a gap to the whole record (`spread_windows`).
     [[nodiscard]] std::vector<window_row> spread(std::size_t i, window_way way) {
@@ -149,15 +180,6 @@ public:
                 if (found) result.push_back(*std::move(found));
             }
         }
-        return result;
-    }
-    /// The windows of about one length.
-    [[nodiscard]] std::vector<window_row> of_length(std::size_t i, window_way way, double length) {
-        auto result = windows(i, way, length, 1.2 * length);
-        auto const same_begin = [](window_row const& a, window_row const& b) {
-            return a.motion == b.motion && !(a.from < b.from);
-        };
-        result.erase(std::unique(result.begin(), result.end(), same_begin), result.end());
         return result;
     }
 
@@ -220,8 +242,7 @@ private:
     [[nodiscard]] std::vector<std::vector<rate_variation>>
     laws_of(std::vector<experiment const*> const& trusted) const {
         if (suspect_ == nullptr) {
-            return laws_above_model(model_, problem_->prior, trusted, channels_,
-                                    options_.rate_variation, options_.go_on);
+            return laws_above_model(model_, problem_->prior, trusted, channels_, options_.go_on);
         }
         std::vector<std::vector<rate_variation>> result;
         for (auto const* e : trusted) result.push_back(suspect_->laws.at(e->name));
@@ -285,43 +306,6 @@ private:
                                                               observed_motion const& m) const {
         return by_sensor_alone(row) ? m.sensed[row.equation] : m.tubes[row.equation];
     }
-    [[nodiscard]] std::vector<window_row> windows(std::size_t i, window_way way, double shortest,
-                                                  double longest) {
-        std::vector<window_row> result;
-        if (is_stated(way))
-            return stated_.windows(i, way == window_way::stated_middle, motions_, shortest, longest,
-                                   options_.go_on);
-        if (way == window_way::weak) {
-            auto const weak = weak_form(i);
-            for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
-                auto more = weak->over(motions_[m], m, shortest, longest, options_.go_on);
-                std::move(more.begin(), more.end(), std::back_inserter(result));
-            }
-            return result;
-        }
-        auto& e = integrated(i, way);
-        for (std::size_t pass = 0, total = 0; pass < 2; ++pass) {
-            std::size_t count = 0;
-            auto const stride = total / options_.most_windows + 1;
-            for (std::size_t m = 0; m < motions_.size(); ++m) {
-                if (!own_tube(e.row, motions_[m])) continue;
-                auto const& times = own_tube(e.row, motions_[m])->times();
-                for (std::size_t b = 1; b < times.size() && !stopped(); ++b) {
-                    for (std::size_t a = b; a-- > 0;) {
-                        double const length = times[b] - times[a];
-                        if (length > longest * (1 + 1e-9)) break;
-                        if (length < shortest * (1 - 1e-9) || ++count % stride != 0) continue;
-                        if (pass == 0) continue;
-                        auto found = row_over(e, way, m, times[a], times[b]);
-                        if (found) result.push_back(*std::move(found));
-                    }
-                }
-            }
-            total = count;
-        }
-        return result;
-    }
-
     [[nodiscard]] prepared_equation& integrated(std::size_t i, window_way way) {
         auto& e = prepared(i, way);
         if (!e.integrals.empty()) return e;
@@ -357,10 +341,8 @@ private:
         }
         for (std::size_t j = 0; j < e.row.functions.size(); ++j) {
             auto value = integral.direct(j, first, last);
-            if (parts && integral.has_parts(j)) {
-                auto const both = intersect(value, integral.by_parts(j, first, last, q_at));
-                if (!is_empty(both)) value = both;
-            }
+            if (parts && integral.has_parts(j))
+                value = agreed(value, integral.by_parts(j, first, last, q_at));
             if (!is_bounded(value)) return std::nullopt;
             w.a.push_back(scaled(value));
         }

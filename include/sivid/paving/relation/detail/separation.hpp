@@ -2,12 +2,12 @@
 #ifndef SIVID_PAVING_RELATION_DETAIL_SEPARATION_HPP
 #define SIVID_PAVING_RELATION_DETAIL_SEPARATION_HPP
 
-#include <sivid/compiled.hpp>
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/graph/graph_range.hpp>
 #include <sivid/model/graph/normal_form.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace sivid {
@@ -16,7 +16,19 @@ namespace sivid {
 using parameter_product = node_product;
 
 /// Encloses a product over the ranges of its factors; the whole line where it has poles.
-[[nodiscard]] SIVID_DECL interval range_of(parameter_product const& theta, graph_range const& over);
+[[nodiscard]] inline interval range_of(parameter_product const& theta, graph_range const& over) {
+    using traits = interval_traits<interval>;
+    bool undefined = false;
+    auto above = traits::point(1.0);
+    auto below = traits::point(1.0);
+    for (auto const& [atom, e] : theta) {
+        undefined = undefined || over.undefined(atom);
+        auto& side = e > 0 ? above : below;
+        side = traits::mul(side, traits::pown(over.value(atom), e > 0 ? e : -e, undefined));
+    }
+    auto const value = traits::div(above, below, undefined);
+    return undefined ? traits::entire() : value;
+}
 
 /// \f$ \theta \phi \f$: an unknown coefficient times a known function of time, states and inputs.
 struct separated_term {
@@ -40,13 +52,23 @@ struct separated_expression {
 /// @guarantee  \f$ \phi_0 + \sum \theta_j \phi_j \f$ equals the node's value wherever both are
 ///             defined; no two terms have the same \f$ \theta_j \f$
 /// @cost  at most `most_terms` products for each node
-[[nodiscard]] SIVID_DECL separated_expression separate(graph& g, node_id root,
-                                                       std::size_t most_terms = 64);
+[[nodiscard]] inline separated_expression separate(graph& g, node_id root,
+                                                   std::size_t most_terms = 64) {
+    separated_expression result;
+    result.rest = g.constant(0.0);
+    multiplied_out<function_coefficients> multiplied(
+        function_coefficients(g), {std::numeric_limits<std::size_t>::max(), most_terms});
+    for (auto const& [theta, f] : multiplied(root)) {
+        result.complete = result.complete && (g.depends(f) & on_constant) == 0;
+        if (theta.empty()) {
+            result.rest = f;
+        } else {
+            result.terms.push_back({theta, f});
+        }
+    }
+    return result;
+}
 
 } // namespace sivid
-
-#ifndef SIVID_COMPILED
-#include <sivid/paving/relation/impl/separation.ipp>
-#endif
 
 #endif

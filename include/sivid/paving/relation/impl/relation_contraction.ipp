@@ -161,55 +161,37 @@ smear_of(graph const& g, std::vector<known_product> const& known, box const& x) 
     return smear;
 }
 
-/// What is left of a box (empty when nothing is), and how much its sides blur the equations.
-struct relation_findings {
-    box rest;
-    std::vector<double> smear;
-};
-
-[[nodiscard]] inline relation_findings
-contract_by_windows(identification_problem narrowed, relation_contraction_options const& options) {
-    auto& rest = narrowed.prior;
-    box const nothing = empty_box(rest.size());
-    std::vector<double> smear;
-    relation_options how;
-    how.go_on = options.keep_going;
-    how.cells_per_gap = options.cells_per_gap;
-    for (std::size_t round = 0; round < options.rounds; ++round) {
-        relation_windows windows(narrowed, how, nullptr, tube_source::proved);
-        std::vector<known_product> known;
-        for (std::size_t i = 0; i < narrowed.model.about.states.size(); ++i) {
-            auto more = known_products(windows, i);
-            if (!more) return {nothing, {}};
-            std::move(more->begin(), more->end(), std::back_inserter(known));
-        }
-        if (windows.stopped()) break;
-        smear = smear_of(windows.equations(), known, rest);
-        auto const before = rest;
-        if (!product_contraction(windows.equations(), known)(rest)) return {nothing, {}};
-        bool gained = false;
-        for (std::size_t i = 0; i < rest.size(); ++i) {
-            gained = gained || width(rest[i]) < (1 - options.gain) * width(before[i]);
-        }
-        if (!gained) break;
-    }
-    return {rest, smear};
-}
-
 } // namespace paving_detail
 
 SIVID_DECL assessment<> relation_test::operator()(box const& x) const {
     auto narrowed = *problem_;
     narrowed.prior = x;
-    auto found = paving_detail::contract_by_windows(std::move(narrowed), options_);
-    assessment<> result{.rest = x};
-    if (is_empty(found.rest)) {
-        result.verdict = box_verdict::outside;
-        return result;
+    auto& rest = narrowed.prior;
+    assessment<> const nothing{.verdict = box_verdict::outside, .rest = x};
+    std::vector<double> smear;
+    relation_options how;
+    how.go_on = options_.keep_going;
+    how.cells_per_gap = options_.cells_per_gap;
+    for (std::size_t round = 0; round < options_.rounds; ++round) {
+        relation_windows windows(narrowed, how, nullptr, tube_source::proved);
+        std::vector<paving_detail::known_product> known;
+        for (std::size_t i = 0; i < narrowed.model.about.states.size(); ++i) {
+            auto more = paving_detail::known_products(windows, i);
+            if (!more) return nothing;
+            std::move(more->begin(), more->end(), std::back_inserter(known));
+        }
+        if (windows.stopped()) break;
+        smear = paving_detail::smear_of(windows.equations(), known, rest);
+        auto const before = rest;
+        if (!paving_detail::product_contraction(windows.equations(), known)(rest)) return nothing;
+        bool gained = false;
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+            gained = gained || width(rest[i]) < (1 - options_.gain) * width(before[i]);
+        }
+        if (!gained) break;
     }
-    result.rest = std::move(found.rest);
-    result.smear = std::move(found.smear);
-    return result;
+    if (is_empty(rest)) return nothing;
+    return {.rest = std::move(rest), .smear = std::move(smear)};
 }
 
 SIVID_DECL box contract_by_relations(identification_problem const& problem,

@@ -4,7 +4,6 @@
 
 #include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/enclosure/observation.hpp>
-#include <sivid/paving/response/detail/output_polynomial.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
 

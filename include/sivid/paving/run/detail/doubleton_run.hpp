@@ -6,11 +6,11 @@
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/paving/response/detail/affine_output.hpp>
 #include <sivid/paving/run/detail/experiment_run_class.hpp>
-#include <sivid/paving/run/detail/measurement_walk.hpp>
 #include <sivid/paving/run_options.hpp>
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,16 +18,48 @@ namespace sivid {
 
 namespace paving_detail {
 
-/// Sets of first order, one box at a time.
+/// One family of trajectories, carried as a set of first order.
+class doubleton_family {
+public:
+    doubleton_family(flow const& f, enclosure_options const& options)
+        : run_(f, options), look_(f) {}
+
+    void begin(double time, box const& initial, box const& parameters) {
+        unknowns_.emplace(initial, parameters);
+        table_ = linear_table(unknowns_->variables);
+        run_.begin(time, initial, parameters);
+        look_.set_ensemble(run_.ensemble());
+    }
+    [[nodiscard]] normalised_unknowns const& unknowns() const { return *unknowns_; }
+    [[nodiscard]] std::shared_ptr<monomial_table const> const& table() const { return table_; }
+    /// @returns whether the time was reached
+    [[nodiscard]] bool advance(double time) {
+        while (run_.time() < time && run_.step(time)) {
+        }
+        return !(run_.time() < time);
+    }
+    /// All channels at the present time.
+    [[nodiscard]] auto outputs() { return look_(run_.set()); }
+    [[nodiscard]] output_polynomial polynomial_of(observation<interval> const& seen) const {
+        return affine_output(seen, *unknowns_, run_.ensemble().deviation);
+    }
+
+private:
+    trajectory<interval> run_;
+    observer<interval> look_;
+    std::optional<normalised_unknowns> unknowns_;
+    std::shared_ptr<monomial_table const> table_;
+};
+
+/// Sets of first order over a record, one box at a time.
 class doubleton_run final : public experiment_run {
 public:
     doubleton_run(flow const& f, experiment const& e, record const& samples,
                   run_options const& options)
         : experiment_(&e),
           samples_(&samples),
-          options_(options),
-          run_(f, options.enclosure),
-          look_(f) {}
+          hopeless_(options.hopeless),
+          carried_(f, options.enclosure) {}
 
     using experiment_run::operator();
 
@@ -40,27 +72,20 @@ public:
 
 private:
     std::shared_ptr<response const> run_one(box const& initial, box const& parameters) {
-        using traits = interval_traits<interval>;
         auto answer = start_response(*experiment_, *samples_, initial, parameters);
-        auto const& u = answer->unknowns;
-        run_.begin(experiment_->begin, initial, parameters);
-        look_.set_ensemble(run_.ensemble());
-        answer->table = linear_table(u.variables);
+        carried_.begin(experiment_->begin, initial, parameters);
+        answer->table = carried_.table();
         response_builder collected(answer->table->size());
-        auto const& deviation = run_.ensemble().deviation;
         auto const keep = [&](observation<interval> const& seen, interval const& bound) {
-            auto const y = affine_output(seen, u, deviation);
+            auto const y = carried_.polynomial_of(seen);
             collected.add([&](std::size_t m) { return y.coefficients[m]; }, y.radius, bound);
-            bool const fails = seen.defined && traits::disjoint(seen.value, bound);
-            return kept_output{
-                fails, !(2 * y.radius <= options_.hopeless * (2 * y.spread() + width(bound)))};
+            bool const fails =
+                seen.defined && interval_traits<interval>::disjoint(seen.value, bound);
+            return kept_output{fails, is_hopeless(y.radius, y.spread(), bound, hopeless_)};
         };
         measurement_walk walk(*samples_, answer->allowed);
-        while (!walk.done()) {
-            bool reached = true;
-            while (reached && run_.time() < walk.time()) reached = run_.step(walk.time());
-            if (!reached) break;
-            auto const seen = look_(run_.set());
+        while (!walk.done() && carried_.advance(walk.time())) {
+            auto const seen = carried_.outputs();
             walk.take([&](std::size_t channel, interval const& bound) {
                 return keep(seen[channel], bound);
             });
@@ -71,9 +96,49 @@ private:
 
     experiment const* experiment_;
     record const* samples_;
-    run_options options_;
-    trajectory<interval> run_;
-    observer<interval> look_;
+    double hopeless_;
+    doubleton_family carried_;
+};
+
+/// Sets of first order that go on.
+class doubleton_continuation final : public continued_run {
+public:
+    doubleton_continuation(flow const& f, double begin, enclosure_options const& options)
+        : flow_(&f), begin_(begin), options_(options) {}
+
+    [[nodiscard]] family begin(box const& initial, box const& parameters) override {
+        family f = 0;
+        while (f < all_.size() && all_[f]) ++f;
+        if (f == all_.size()) all_.emplace_back();
+        all_[f] = std::make_unique<doubleton_family>(*flow_, options_);
+        all_[f]->begin(begin_, initial, parameters);
+        return f;
+    }
+    void end(family f) override { all_[f].reset(); }
+    [[nodiscard]] normalised_unknowns const& unknowns(family f) const override {
+        return all_[f]->unknowns();
+    }
+    [[nodiscard]] std::shared_ptr<monomial_table const> table(family f) const override {
+        return all_[f]->table();
+    }
+    [[nodiscard]] std::vector<std::vector<output_polynomial>>
+    read(std::vector<family> const& which, double time,
+         std::vector<std::size_t> const& channels) override {
+        std::vector<std::vector<output_polynomial>> result;
+        for (auto const f : which) {
+            auto& out = result.emplace_back();
+            if (!all_[f]->advance(time)) continue;
+            auto const seen = all_[f]->outputs();
+            for (auto const c : channels) out.push_back(all_[f]->polynomial_of(seen[c]));
+        }
+        return result;
+    }
+
+private:
+    flow const* flow_;
+    double begin_;
+    enclosure_options options_;
+    std::vector<std::unique_ptr<doubleton_family>> all_;
 };
 
 } // namespace paving_detail

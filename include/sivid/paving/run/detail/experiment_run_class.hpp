@@ -4,9 +4,11 @@
 
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
+#include <sivid/measurement/record.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -31,6 +33,29 @@ public:
         return (*this)(initial, std::vector<box>{parameters})[0];
     }
     /// How many boxes are best given together.
+    [[nodiscard]] virtual std::size_t at_once() const { return 1; }
+};
+
+/// Families of trajectories of one experiment that go on from where they are whenever an output at
+/// a later time is asked for: what the past cost is not paid again.
+class continued_run {
+public:
+    using family = std::size_t;
+
+    virtual ~continued_run() = default;
+    /// Starts all trajectories from a box of starts for a box of parameters.
+    [[nodiscard]] virtual family begin(box const& initial, box const& parameters) = 0;
+    virtual void end(family f) = 0;
+    [[nodiscard]] virtual normalised_unknowns const& unknowns(family f) const = 0;
+    [[nodiscard]] virtual std::shared_ptr<monomial_table const> table(family f) const = 0;
+    /// Carries families on to one time and looks at some channels there.
+    /// @given  no family is beyond `time`
+    /// @returns by family and channel asked for; nothing for a family whose enclosure failed, now
+    ///          or before
+    [[nodiscard]] virtual std::vector<std::vector<output_polynomial>>
+    read(std::vector<family> const& which, double time,
+         std::vector<std::size_t> const& channels) = 0;
+    /// How many families are carried at the cost of one.
     [[nodiscard]] virtual std::size_t at_once() const { return 1; }
 };
 
@@ -69,6 +94,67 @@ namespace paving_detail {
         options.minimum_step =
             std::min(options.minimum_step, std::max(shortest / 500, 1e-6 * unit));
     return options;
+}
+
+/// The options of runs of one flow. What uncertain inputs cost, no smaller box gives back: such
+/// runs are never hopeless.
+[[nodiscard]] inline run_options options_for(flow const& f, run_options options) {
+    if (f.uncertain()) options.hopeless = 1e300;
+    return options;
+}
+/// Whether what is lost of an output exceeds `most` times what is known of it and its bound.
+/// @param radius, spread  of its polynomial
+[[nodiscard]] inline bool is_hopeless(double radius, double spread, interval const& bound,
+                                      double most) {
+    return !(2 * radius <= most * (2 * spread + width(bound)));
+}
+
+/// What an output says of a measurement.
+struct kept_output {
+    bool fails = false;
+    bool hopeless = false;
+};
+
+/// The place of one run in the measurements of a record, which are met group by group in time.
+class measurement_walk {
+public:
+    measurement_walk(record const& samples, std::size_t allowed)
+        : samples_(&samples), allowed_(allowed) {}
+
+    [[nodiscard]] bool done() const { return over_ || next_ >= samples_->size(); }
+    /// Time of the next measurements.
+    [[nodiscard]] double time() const { return (*samples_)[next_].time; }
+    /// Takes the measurements of the present time.
+    /// @param keep  (channel, bound) -> kept_output
+    template <class Keep>
+    void take(Keep&& keep) {
+        double const t = time();
+        bool hopeless = true;
+        for (; next_ < samples_->size() && (*samples_)[next_].time == t; ++next_) {
+            auto const verdict = keep((*samples_)[next_].channel, (*samples_)[next_].bound);
+            failed_ += verdict.fails ? 1 : 0;
+            hopeless = hopeless && verdict.hopeless;
+        }
+        over_ = failed_ > allowed_ || hopeless;
+    }
+
+private:
+    record const* samples_;
+    std::size_t allowed_;
+    std::size_t next_ = 0;
+    std::size_t failed_ = 0;
+    bool over_ = false;
+};
+
+[[nodiscard]] inline std::shared_ptr<response> start_response(experiment const& e,
+                                                              record const& samples,
+                                                              box const& initial,
+                                                              box const& parameters) {
+    auto answer = std::make_shared<response>(
+        response{normalised_unknowns(initial, parameters), nullptr, {}, {}, {}, {}, 0, 0});
+    answer->measurements = samples.size();
+    answer->allowed = e.outliers;
+    return answer;
 }
 
 } // namespace paving_detail

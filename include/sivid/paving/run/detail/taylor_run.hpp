@@ -4,7 +4,6 @@
 
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
 #include <sivid/paving/run/detail/experiment_run_class.hpp>
-#include <sivid/paving/run/detail/measurement_walk.hpp>
 #include <sivid/paving/run_options.hpp>
 
 #include <algorithm>
@@ -101,9 +100,8 @@ private:
                 [&](std::size_t m) { return (*place)[m] < y.terms() ? y.c((*place)[m]) : 0.0; },
                 y.r(), bound);
             auto const value = rough_range(y);
-            double const known = 2 * y.spread() + sivid::width(bound);
             return {interval_traits<interval>::disjoint(value, bound),
-                    !(2 * y.r() <= hopeless * known)};
+                    is_hopeless(y.r(), y.spread(), bound, hopeless)};
         }
         std::shared_ptr<response const> finish() && {
             std::move(collected).finish(*answer);

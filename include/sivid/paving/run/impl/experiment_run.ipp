@@ -5,9 +5,10 @@
 #include <sivid/paving/run/experiment_run.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/measurement/record.hpp>
 #include <sivid/paving/run/detail/doubleton_run.hpp>
-#include <sivid/paving/run/detail/scalar_run.hpp>
+#include <sivid/paving/run/detail/taylor_continuation.hpp>
 #include <sivid/paving/run/detail/taylor_run.hpp>
 
 #include <algorithm>
@@ -29,9 +30,8 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
     if (options.set == carried_set::taylor_model && options.make == nullptr &&
         !options.enclosure.method && degree == 0)
         return make_scalar_run(f, e, samples, initial, prior, options);
+    options = options_for(f, std::move(options));
     options.enclosure = steps_for(e, std::move(options.enclosure));
-    // What uncertain inputs cost, no smaller box gives back.
-    if (f.uncertain()) options.hopeless = 1e300;
     if (options.set == carried_set::taylor_model) {
         if (options.make != nullptr) return options.make(f, e, samples, initial, prior, options);
         if (options.enclosure.method) {
@@ -46,11 +46,36 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
     return std::make_unique<doubleton_run>(f, e, samples, options);
 }
 
+SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experiment const& e,
+                                                           record const& samples,
+                                                           box const& initial, box const& prior,
+                                                           run_options options) {
+    using namespace paving_detail;
+    options = options_for(f, std::move(options));
+    options.enclosure = steps_for(e, std::move(options.enclosure));
+    auto const unknowns = unknown_count(initial, prior);
+    return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns,
+                                                degree_for(options, unknowns));
+}
+
+SIVID_DECL std::unique_ptr<continued_run> make_continued_run(flow const& f, experiment const& e,
+                                                             box const& prior,
+                                                             run_options const& options) {
+    using namespace paving_detail;
+    auto const unknowns = unknown_count(e.initial, prior);
+    auto const how = steps_for(e, options.enclosure);
+    if (options.set == carried_set::taylor_model) {
+        return std::make_unique<taylor_continuation>(f, e.begin, how, unknowns,
+                                                     suggested_degree(unknowns));
+    }
+    return std::make_unique<doubleton_continuation>(f, e.begin, how);
+}
+
 SIVID_DECL std::vector<std::shared_ptr<response const>>
 run_parts(flow const& f, std::vector<experiment> const& parts, box const& parameters,
           run_options options) {
     using namespace paving_detail;
-    if (f.uncertain()) options.hopeless = 1e300;
+    options = options_for(f, std::move(options));
     std::vector<record> samples;
     std::vector<lane_task> families;
     std::size_t unknowns = 0;

@@ -5,7 +5,7 @@
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/contract/detail/misfit_block.hpp>
 #include <sivid/paving/response/local_response.hpp>
-#include <sivid/paving/run/detail/scalar_run.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
 #include <sivid/verifier/proof/detail/certificate.hpp>
 #include <sivid/verifier/proof/detail/proof_walk.hpp>
 #include <sivid/verifier/proof/detail/response_audit.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/products/detail/preimage_paving.hpp>
+#include <sivid/paving/products/detail/drawing.hpp>
 
 #include "support/catch.hpp"
 #include "support/products.hpp"

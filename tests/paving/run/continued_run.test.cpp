@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/run/detail/continued_run.hpp>
+#include <sivid/paving/run/experiment_run.hpp>
 
 #include "support/catch.hpp"
 #include "support/power_series.hpp"
