@@ -4,6 +4,7 @@
 // most: the loads and stores of the operation, and its floating-point instructions, without
 // anything else. Counters: ns and core cycles an interval; the core's clock is measured beside it.
 // At the end everything side by side, with the goals of the project.
+#include <sivid/number/guard.hpp>
 #include <sivid/number/pack_functions.hpp>
 
 #include <benchmark/benchmark.h>
@@ -222,7 +223,7 @@ void print_table() {
 } // namespace
 
 int main(int argc, char** argv) {
-    sivid::require_pack_support();
+    sivid::require_sound_environment();
     clock_ghz = measured_clock();
     std::cout << "target " << sivid::pack_target() << ", measured clock " << clock_ghz
               << " GHz; counters are per interval\n";

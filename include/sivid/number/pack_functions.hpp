@@ -104,10 +104,6 @@ template <std::size_t W>
 [[nodiscard]] pack<W> saturate(pack<W> const& a, pack<W> const& lo, pack<W> const& hi) noexcept {
     return pack_traits<W>::saturate(a, lo, hi);
 }
-template <std::size_t W>
-[[nodiscard]] pack<W> mul_add(pack<W> const& a, pack<W> const& b, pack<W> const& c) noexcept {
-    return pack_traits<W>::mul_add(a, b, c);
-}
 SIVID_PACK_CUT(sqrt)
 SIVID_PACK_CUT(log)
 SIVID_PACK_CUT(log1p)

@@ -127,8 +127,6 @@ struct pack_traits {
     static I sqrt(I const& a, mask& undefined) noexcept {
         return flagged([](part const& x, M& m) { return simd::sqrt(x, m); }, undefined, a);
     }
-    /// a b + c with two roundings a side.
-    static I mul_add(I const& a, I const& b, I const& c) noexcept { return add(mul(a, b), c); }
     /// By squaring: up to 2 log2 |n| roundings a side.
     static I pown(I const& a, int n, mask& undefined) noexcept {
         return flagged([n](part const& x, M& m) { return simd::pown(x, n, m); }, undefined, a);

@@ -63,7 +63,6 @@ public:
 
     [[nodiscard]] flat_paving operator()() {
         require_sound_environment();
-        require_pack_support();
         auto const begin = std::chrono::steady_clock::now();
         auto const seconds = [&] {
             return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -386,7 +385,8 @@ private:
 /// as many as may be outliers.
 /// @throws std::invalid_argument  for a problem that does not fit together (it names what)
 /// @throws unsound_environment    where interval arithmetic would prove nothing (`guard.hpp`)
-/// @guarantee  the boxes and what is excluded cover the prior; inside boxes satisfy the measurements
+/// @guarantee  the boxes and what is excluded cover the prior; inside boxes satisfy the
+/// measurements
 ///             throughout, `hull` contains every parameter that does
 /// @cost  time and memory linear in the measurements, times the boxes; eight boxes or eight
 ///        measurements at a time
