@@ -102,43 +102,47 @@ template <class V, class Kernel, class F>
         [&](interval const& t, bool&) { return f(t); });
 }
 
-template <class V>
-[[nodiscard]] bounds<V> exp(bounds<V> const& x) noexcept {
+/// An increasing function from its kernels at the two ends, of which `f` is that of intervals.
+template <auto Lower, auto Upper, class V, class F>
+[[nodiscard]] bounds<V> increasing(bounds<V> const& x, F const& f) noexcept {
     return evaluate(
         x,
         [](V lo, V hi) {
-            return bounds<V>{exp_lower(lo), exp_upper(hi)};
+            return bounds<V>{Lower(lo), Upper(hi)};
         },
-        [](interval const& t) { return sivid::exp(t); });
+        f);
+}
+template <class V>
+[[nodiscard]] bounds<V> exp(bounds<V> const& x) noexcept {
+    return increasing<exp_lower<V>, exp_upper<V>>(x,
+                                                  [](interval const& t) { return sivid::exp(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> expm1(bounds<V> const& x) noexcept {
+    return increasing<expm1_lower<V>, expm1_upper<V>>(
+        x, [](interval const& t) { return sivid::expm1(t); });
+}
+/// The same on ]pole, inf[.
+template <auto Lower, auto Upper, class V, class F>
+[[nodiscard]] bounds<V> increasing_above(double pole, bounds<V> const& x, mask_of<V>& undefined,
+                                         F const& f) noexcept {
     return evaluate(
-        x,
-        [](V lo, V hi) {
-            return bounds<V>{expm1_lower(lo), expm1_upper(hi)};
+        x, undefined,
+        [&](V lo, V hi, mask_of<V>& left) {
+            left = left | (lo <= V(pole));
+            return empty_where(hi <= V(pole), bounds<V>{Lower(lo), Upper(hi)});
         },
-        [](interval const& t) { return sivid::expm1(t); });
+        f);
 }
 template <class V>
 [[nodiscard]] bounds<V> log(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return evaluate(
-        x, undefined,
-        [](V lo, V hi, mask_of<V>& left) {
-            left = left | (lo <= V(0.0));
-            return empty_where(hi <= V(0.0), bounds<V>{log_lower(lo), log_upper(hi)});
-        },
-        [](interval const& t, bool& cut) { return sivid::log(t, cut); });
+    return increasing_above<log_lower<V>, log_upper<V>>(
+        0.0, x, undefined, [](interval const& t, bool& cut) { return sivid::log(t, cut); });
 }
 template <class V>
 [[nodiscard]] bounds<V> log1p(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return evaluate(
-        x, undefined,
-        [](V lo, V hi, mask_of<V>& left) {
-            left = left | (lo <= V(-1.0));
-            return empty_where(hi <= V(-1.0), bounds<V>{log1p_lower(lo), log1p_upper(hi)});
-        },
-        [](interval const& t, bool& cut) { return sivid::log1p(t, cut); });
+    return increasing_above<log1p_lower<V>, log1p_upper<V>>(
+        -1.0, x, undefined, [](interval const& t, bool& cut) { return sivid::log1p(t, cut); });
 }
 
 /// y, with f in the lanes that have an end beyond the limit of the trigonometric kernels.
@@ -150,27 +154,24 @@ template <class V, class F>
         return y;
     return replace_lanes(y, far, undefined, f, x);
 }
-template <class V>
-[[nodiscard]] bounds<V> sin(bounds<V> const& x) noexcept {
+/// sin or cos from their kernel.
+template <auto Kernel, class V, class F>
+[[nodiscard]] bounds<V> wave(bounds<V> const& x, F const& f) noexcept {
     mask_of<V> ignored{};
-    auto const f = [](interval const& t, bool&) { return sivid::sin(t); };
     return evaluate(
         x, ignored,
         [&](V lo, V hi, mask_of<V>& left) {
-            return replace_beyond_limit(sin_within_limit(lo, hi), bounds<V>{lo, hi}, left, f);
+            return replace_beyond_limit(Kernel(lo, hi), bounds<V>{lo, hi}, left, f);
         },
         f);
 }
 template <class V>
+[[nodiscard]] bounds<V> sin(bounds<V> const& x) noexcept {
+    return wave<sin_within_limit<V>>(x, [](interval const& t, bool&) { return sivid::sin(t); });
+}
+template <class V>
 [[nodiscard]] bounds<V> cos(bounds<V> const& x) noexcept {
-    mask_of<V> ignored{};
-    auto const f = [](interval const& t, bool&) { return sivid::cos(t); };
-    return evaluate(
-        x, ignored,
-        [&](V lo, V hi, mask_of<V>& left) {
-            return replace_beyond_limit(cos_within_limit(lo, hi), bounds<V>{lo, hi}, left, f);
-        },
-        f);
+    return wave<cos_within_limit<V>>(x, [](interval const& t, bool&) { return sivid::cos(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> tan(bounds<V> const& x, mask_of<V>& undefined) noexcept {
@@ -187,56 +188,46 @@ template <class V>
 
 template <class V>
 [[nodiscard]] bounds<V> atan(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            return bounds<V>{atan_lower(lo), atan_upper(hi)};
-        },
-        [](interval const& t) { return sivid::atan(t); });
+    return increasing<atan_lower<V>, atan_upper<V>>(
+        x, [](interval const& t) { return sivid::atan(t); });
 }
 
-/// Cut to [-1, 1]; `outside` where nothing is left.
-template <class V>
-struct unit_cut {
-    bounds<V> x;
-    mask_of<V> outside;
-};
-template <class V>
-[[nodiscard]] unit_cut<V> cut_to_unit(bounds<V> const& x) noexcept {
-    V const one(1.0);
-    return {{max(-one, x.lo), min(one, x.hi)}, (x.lo > one) | (x.hi < -one)};
+/// kernel(lo, hi) with the ends of x cut to [-1, 1]; f is the function of intervals.
+template <class V, class Kernel, class F>
+[[nodiscard]] bounds<V> within_unit(bounds<V> const& x, mask_of<V>& undefined, Kernel const& kernel,
+                                    F const& f) noexcept {
+    return evaluate(
+        x, undefined,
+        [&](V lo, V hi, mask_of<V>& left) {
+            V const one(1.0);
+            left = left | (lo < -one) | (hi > one);
+            return empty_where((lo > one) | (hi < -one), kernel(max(-one, lo), min(one, hi)));
+        },
+        f);
 }
 template <class V>
 [[nodiscard]] bounds<V> asin(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return evaluate(
+    return within_unit(
         x, undefined,
-        [](V lo, V hi, mask_of<V>& left) {
-            left = left | (lo < V(-1.0)) | (hi > V(1.0));
-            auto const c = cut_to_unit(bounds<V>{lo, hi});
-            return empty_where(c.outside, bounds<V>{asin_lower(c.x.lo), asin_upper(c.x.hi)});
+        [](V lo, V hi) {
+            return bounds<V>{asin_lower(lo), asin_upper(hi)};
         },
         [](interval const& t, bool& cut) { return sivid::asin(t, cut); });
 }
 template <class V>
 [[nodiscard]] bounds<V> acos(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return evaluate(
+    return within_unit(
         x, undefined,
-        [](V lo, V hi, mask_of<V>& left) {
-            left = left | (lo < V(-1.0)) | (hi > V(1.0));
-            auto const c = cut_to_unit(bounds<V>{lo, hi});
-            return empty_where(c.outside, bounds<V>{acos_lower(c.x.hi), acos_upper(c.x.lo)});
+        [](V lo, V hi) {
+            return bounds<V>{acos_lower(hi), acos_upper(lo)};
         },
         [](interval const& t, bool& cut) { return sivid::acos(t, cut); });
 }
 
 template <class V>
 [[nodiscard]] bounds<V> sinh(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            return bounds<V>{sinh_lower(lo), sinh_upper(hi)};
-        },
-        [](interval const& t) { return sivid::sinh(t); });
+    return increasing<sinh_lower<V>, sinh_upper<V>>(
+        x, [](interval const& t) { return sivid::sinh(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> cosh(bounds<V> const& x) noexcept {
@@ -250,12 +241,8 @@ template <class V>
 }
 template <class V>
 [[nodiscard]] bounds<V> tanh(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            return bounds<V>{tanh_lower(lo), tanh_upper(hi)};
-        },
-        [](interval const& t) { return sivid::tanh(t); });
+    return increasing<tanh_lower<V>, tanh_upper<V>>(
+        x, [](interval const& t) { return sivid::tanh(t); });
 }
 
 template <class V>
