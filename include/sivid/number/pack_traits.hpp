@@ -110,56 +110,21 @@ struct pack_traits {
     static I pown(I const& a, int n, mask& undefined) noexcept {
         return flagged<simd::pown<V>>(undefined, a, n);
     }
-    static I hypot(I const& a, I const& b) noexcept { return map<simd::hypot<V>>(a, b); }
 
     // Elementary functions: error bounds in docs/pack_functions.md.
     static I exp(I const& a) noexcept { return map<simd::exp<V>>(a); }
-    static I expm1(I const& a) noexcept { return map<simd::expm1<V>>(a); }
     static I log(I const& a, mask& undefined) noexcept {
         return flagged<simd::log<V>>(undefined, a);
-    }
-    static I log1p(I const& a, mask& undefined) noexcept {
-        return flagged<simd::log1p<V>>(undefined, a);
     }
     static I sin(I const& a) noexcept { return map<simd::sin<V>>(a); }
     static I cos(I const& a) noexcept { return map<simd::cos<V>>(a); }
     static I tan(I const& a, mask& undefined) noexcept {
         return flagged<simd::tan<V>>(undefined, a);
     }
-    static I asin(I const& a, mask& undefined) noexcept {
-        return flagged<simd::asin<V>>(undefined, a);
-    }
-    static I acos(I const& a, mask& undefined) noexcept {
-        return flagged<simd::acos<V>>(undefined, a);
-    }
     static I atan(I const& a) noexcept { return map<simd::atan<V>>(a); }
-    static I sinh(I const& a) noexcept { return map<simd::sinh<V>>(a); }
-    static I cosh(I const& a) noexcept { return map<simd::cosh<V>>(a); }
     static I tanh(I const& a) noexcept { return map<simd::tanh<V>>(a); }
 
-    // Lane by lane through the vocabulary type, with its excess.
-    static I pow(I const& a, I const& b, mask& undefined) noexcept {
-        return flagged<simd::pow<V>>(undefined, a, b);
-    }
-    static I atan2(I const& a, I const& b, mask& undefined) noexcept {
-        return flagged<simd::atan2<V>>(undefined, a, b);
-    }
-    static I asinh(I const& a) noexcept { return map<simd::asinh<V>>(a); }
-    static I acosh(I const& a, mask& undefined) noexcept {
-        return flagged<simd::acosh<V>>(undefined, a);
-    }
-    static I atanh(I const& a, mask& undefined) noexcept {
-        return flagged<simd::atanh<V>>(undefined, a);
-    }
-
-    // Functions made of pieces: tight.
     static I sign(I const& a) noexcept { return map<simd::sign<V>>(a); }
-    static I saturate(I const& a, I const& lo, I const& hi) noexcept {
-        return map<simd::saturate<V>>(a, lo, hi);
-    }
-    static I deadband(I const& a, I const& half_width) noexcept {
-        return map<simd::deadband<V>>(a, half_width);
-    }
 
 private:
     using scalar = interval_traits<interval>;

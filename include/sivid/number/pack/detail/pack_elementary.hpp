@@ -4,8 +4,8 @@
 
 /// @file
 /// Elementary functions of vectors of intervals: kernels at the ends, domains cut, empty lanes
-/// kept. Lanes that a kernel does not serve (|x| > 2^20 of sin, cos, tan), and pow, atan2 and the
-/// inverse hyperbolic functions, go one by one through the vocabulary type, with its excess.
+/// kept. Lanes that a kernel does not serve (|x| > 2^20 of sin, cos, tan) go one by one through the
+/// vocabulary type, with its excess.
 
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/pack/detail/pack_arctangent.hpp>
@@ -18,40 +18,25 @@
 namespace sivid::simd {
 inline namespace SIVID_PACK_TARGET {
 
-template <class V>
-[[nodiscard]] interval lane_of(std::array<double, V::lanes> const& lo,
-                               std::array<double, V::lanes> const& hi, std::size_t i) noexcept {
-    return interval_traits<interval>::bounds(lo[i], hi[i]);
-}
-
-/// y with f(x...) in the lanes of `which`; f sets its last argument where it is not defined.
-template <class V, class F, class... X>
-[[nodiscard]] bounds<V> replace_lanes(bounds<V> const& y, unsigned which, mask_of<V>& undefined,
-                                      F const& f, X... x) noexcept {
-    std::array<double, V::lanes> lo, hi, flag{};
+/// y with f(x) in the lanes of `which`; f sets its last argument where it is not defined.
+template <class V, class F>
+[[nodiscard]] bounds<V> replace_lanes(bounds<V> const& y, unsigned which, bounds<V> const& x,
+                                      mask_of<V>& undefined, F const& f) noexcept {
+    std::array<double, V::lanes> lo, hi, flag{}, from, to;
     y.lo.store(lo.data());
     y.hi.store(hi.data());
-    std::array<std::array<std::array<double, V::lanes>, 2>, sizeof...(X)> in;
-    std::size_t n = 0;
-    ((x.lo.store(in[n][0].data()), x.hi.store(in[n][1].data()), ++n), ...);
+    x.lo.store(from.data());
+    x.hi.store(to.data());
     for (std::size_t i = 0; i < V::lanes; ++i) {
         if ((which >> i & 1u) == 0) continue;
         bool cut = false;
-        interval z;
-        if constexpr (sizeof...(X) == 1)
-            z = f(lane_of<V>(in[0][0], in[0][1], i), cut);
-        else
-            z = f(lane_of<V>(in[0][0], in[0][1], i), lane_of<V>(in[1][0], in[1][1], i), cut);
+        interval const z = f(interval_traits<interval>::bounds(from[i], to[i]), cut);
         lo[i] = z.lower();
         hi[i] = z.upper();
         flag[i] = cut ? 1.0 : 0.0;
     }
     undefined = undefined | (V::load(flag.data()) > V(0.0));
     return {V::load(lo.data()), V::load(hi.data())};
-}
-template <class V, class F, class... X>
-[[nodiscard]] bounds<V> lane_by_lane(mask_of<V>& undefined, F const& f, X... x) noexcept {
-    return replace_lanes(constant<V>(0.0, 0.0), ~0u, undefined, f, x...);
 }
 
 /// The same numbers, in registers: a kernel's operations stay between here and there, whatever the
@@ -89,7 +74,7 @@ template <class V, class Kernel, class F>
 [[nodiscard]] bounds<V> evaluate(bounds<V> const& x, mask_of<V>& undefined, Kernel const& kernel,
                                  F const& f) noexcept {
     if (!kernels_hold<V>()) [[unlikely]]
-        return lane_by_lane<V>(undefined, f, x);
+        return replace_lanes(constant<V>(0.0, 0.0), ~0u, x, undefined, f);
     bounds<V> const t = in_registers(x);
     return in_registers(kernel(t.lo, t.hi, undefined));
 }
@@ -118,31 +103,14 @@ template <class V>
                                                   [](interval const& t) { return sivid::exp(t); });
 }
 template <class V>
-[[nodiscard]] bounds<V> expm1(bounds<V> const& x) noexcept {
-    return increasing<expm1_lower<V>, expm1_upper<V>>(
-        x, [](interval const& t) { return sivid::expm1(t); });
-}
-/// The same on ]pole, inf[.
-template <auto Lower, auto Upper, class V, class F>
-[[nodiscard]] bounds<V> increasing_above(double pole, bounds<V> const& x, mask_of<V>& undefined,
-                                         F const& f) noexcept {
+[[nodiscard]] bounds<V> log(bounds<V> const& x, mask_of<V>& undefined) noexcept {
     return evaluate(
         x, undefined,
-        [&](V lo, V hi, mask_of<V>& left) {
-            left = left | (lo <= V(pole));
-            return empty_where(hi <= V(pole), bounds<V>{Lower(lo), Upper(hi)});
+        [](V lo, V hi, mask_of<V>& left) {
+            left = left | (lo <= V(0.0));
+            return empty_where(hi <= V(0.0), bounds<V>{log_lower(lo), log_upper(hi)});
         },
-        f);
-}
-template <class V>
-[[nodiscard]] bounds<V> log(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return increasing_above<log_lower<V>, log_upper<V>>(
-        0.0, x, undefined, [](interval const& t, bool& cut) { return sivid::log(t, cut); });
-}
-template <class V>
-[[nodiscard]] bounds<V> log1p(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return increasing_above<log1p_lower<V>, log1p_upper<V>>(
-        -1.0, x, undefined, [](interval const& t, bool& cut) { return sivid::log1p(t, cut); });
+        [](interval const& t, bool& cut) { return sivid::log(t, cut); });
 }
 
 /// y, with f in the lanes that have an end beyond the limit of the trigonometric kernels.
@@ -152,7 +120,7 @@ template <class V, class F>
     unsigned const far = (mag(x) > V(trigonometric_limit)).bits();
     if (far == 0) [[likely]]
         return y;
-    return replace_lanes(y, far, undefined, f, x);
+    return replace_lanes(y, far, x, undefined, f);
 }
 /// sin or cos from their kernel.
 template <auto Kernel, class V, class F>
@@ -192,90 +160,10 @@ template <class V>
         x, [](interval const& t) { return sivid::atan(t); });
 }
 
-/// kernel(lo, hi) with the ends of x cut to [-1, 1]; f is the function of intervals.
-template <class V, class Kernel, class F>
-[[nodiscard]] bounds<V> within_unit(bounds<V> const& x, mask_of<V>& undefined, Kernel const& kernel,
-                                    F const& f) noexcept {
-    return evaluate(
-        x, undefined,
-        [&](V lo, V hi, mask_of<V>& left) {
-            V const one(1.0);
-            left = left | (lo < -one) | (hi > one);
-            return empty_where((lo > one) | (hi < -one), kernel(max(-one, lo), min(one, hi)));
-        },
-        f);
-}
-template <class V>
-[[nodiscard]] bounds<V> asin(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return within_unit(
-        x, undefined,
-        [](V lo, V hi) {
-            return bounds<V>{asin_lower(lo), asin_upper(hi)};
-        },
-        [](interval const& t, bool& cut) { return sivid::asin(t, cut); });
-}
-template <class V>
-[[nodiscard]] bounds<V> acos(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return within_unit(
-        x, undefined,
-        [](V lo, V hi) {
-            return bounds<V>{acos_lower(hi), acos_upper(lo)};
-        },
-        [](interval const& t, bool& cut) { return sivid::acos(t, cut); });
-}
-
-template <class V>
-[[nodiscard]] bounds<V> sinh(bounds<V> const& x) noexcept {
-    return increasing<sinh_lower<V>, sinh_upper<V>>(
-        x, [](interval const& t) { return sivid::sinh(t); });
-}
-template <class V>
-[[nodiscard]] bounds<V> cosh(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            bounds<V> const t{lo, hi};
-            return bounds<V>{cosh_lower(mig(t)), cosh_upper(mag(t))};
-        },
-        [](interval const& t) { return sivid::cosh(t); });
-}
 template <class V>
 [[nodiscard]] bounds<V> tanh(bounds<V> const& x) noexcept {
     return increasing<tanh_lower<V>, tanh_upper<V>>(
         x, [](interval const& t) { return sivid::tanh(t); });
-}
-
-template <class V>
-[[nodiscard]] bounds<V> asinh(bounds<V> const& x) noexcept {
-    mask_of<V> ignored{};
-    return lane_by_lane<V>(
-        ignored, [](interval const& t, bool&) { return sivid::asinh(t); }, x);
-}
-template <class V>
-[[nodiscard]] bounds<V> acosh(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return lane_by_lane<V>(
-        undefined, [](interval const& t, bool& cut) { return sivid::acosh(t, cut); }, x);
-}
-template <class V>
-[[nodiscard]] bounds<V> atanh(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return lane_by_lane<V>(
-        undefined, [](interval const& t, bool& cut) { return sivid::atanh(t, cut); }, x);
-}
-template <class V>
-[[nodiscard]] bounds<V> pow(bounds<V> const& x, bounds<V> const& y,
-                            mask_of<V>& undefined) noexcept {
-    return lane_by_lane<V>(
-        undefined,
-        [](interval const& s, interval const& t, bool& cut) { return sivid::pow(s, t, cut); }, x,
-        y);
-}
-template <class V>
-[[nodiscard]] bounds<V> atan2(bounds<V> const& y, bounds<V> const& x,
-                              mask_of<V>& undefined) noexcept {
-    return lane_by_lane<V>(
-        undefined,
-        [](interval const& s, interval const& t, bool& cut) { return sivid::atan2(s, t, cut); }, y,
-        x);
 }
 
 } // namespace SIVID_PACK_TARGET
