@@ -4,6 +4,7 @@
 // most: the loads and stores of the operation, and its floating-point instructions, without
 // anything else. Counters: ns and core cycles an interval; the core's clock is measured beside it.
 // At the end everything side by side, with the goals of the project.
+#include <sivid/number/guard.hpp>
 #include <sivid/number/pack_functions.hpp>
 
 #include <benchmark/benchmark.h>
@@ -222,7 +223,7 @@ void print_table() {
 } // namespace
 
 int main(int argc, char** argv) {
-    sivid::require_pack_support();
+    sivid::require_sound_environment();
     clock_ghz = measured_clock();
     std::cout << "target " << sivid::pack_target() << ", measured clock " << clock_ghz
               << " GHz; counters are per interval\n";
@@ -256,21 +257,13 @@ int main(int argc, char** argv) {
     add_all(
         "sqrt", [](auto const& a, auto const&) { return sqrt(a); }, 3.5);
     add_all("exp", [](auto const& a, auto const&) { return exp(a); });
-    add_all("expm1", [](auto const& a, auto const&) { return expm1(a); });
     add_all(
         "log", [](auto const& a, auto const&) { return log(a); }, 3.5);
-    add_all(
-        "log1p", [](auto const& a, auto const&) { return log1p(a); }, 3.5);
     add_all("sin", [](auto const& a, auto const&) { return sin(a); });
     add_all("cos", [](auto const& a, auto const&) { return cos(a); });
     add_all("tan", [](auto const& a, auto const&) { return tan(a); });
     add_all("atan", [](auto const& a, auto const&) { return atan(a); });
-    add_all("asin", [](auto const& a, auto const&) { return asin(a); });
-    add_all("acos", [](auto const& a, auto const&) { return acos(a); });
-    add_all("sinh", [](auto const& a, auto const&) { return sinh(a); });
-    add_all("cosh", [](auto const& a, auto const&) { return cosh(a); });
     add_all("tanh", [](auto const& a, auto const&) { return tanh(a); });
-    add_all("hypot", [](auto const& a, auto const& b) { return hypot(a, b); });
     add_all("pown 7", [](auto const& a, auto const&) { return pown(a, 7); });
 
     benchmark::Initialize(&argc, argv);

@@ -11,7 +11,7 @@
 template <sivid::interval_scalar I>
 I period(I const& length, I const& gravity, typename sivid::interval_traits<I>::mask& cut) {
     using t = sivid::interval_traits<I>;
-    I const pi = t::mul(t::point(2.0), t::acos(t::point(0.0), cut));
+    I const pi = t::mul(t::point(4.0), t::atan(t::point(1.0)));
     return t::mul(t::mul(t::point(2.0), pi), t::sqrt(t::div(length, gravity, cut), cut));
 }
 

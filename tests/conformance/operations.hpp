@@ -7,6 +7,8 @@
 #include <sivid/number/cancellation.hpp>
 #include <sivid/number/interval_traits.hpp>
 
+#include "support/further_functions.hpp"
+
 #include <concepts>
 #include <cstddef>
 #include <limits>
@@ -45,7 +47,7 @@ struct report {
 inline constexpr double inf = std::numeric_limits<double>::infinity();
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The operations by the names of the vector files.
+/// The operations by the names of the vector files; the whole line where a type does not have one.
 template <class I>
 struct operations {
     using t = sivid::interval_traits<I>;
@@ -65,11 +67,17 @@ struct operations {
     static I intersection(I const& a, I const& b) { return t::intersect(a, b); }
     static I pow(I const& a, I const& b) {
         mask m{};
-        return t::pow(a, b, m);
+        if constexpr (support::has_further_functions<I>)
+            return t::pow(a, b, m);
+        else
+            return t::entire();
     }
     static I atan2(I const& a, I const& b) {
         mask m{};
-        return t::atan2(a, b, m);
+        if constexpr (support::has_further_functions<I>)
+            return t::atan2(a, b, m);
+        else
+            return t::entire();
     }
     /// No fused operation is offered; the sum of the product encloses it.
     static I fma(I const& a, I const& b, I const& c) { return t::add(t::mul(a, b), c); }
@@ -85,14 +93,22 @@ struct operations {
     }
     static I abs(I const& a) { return t::abs(a); }
     static I exp(I const& a) { return t::exp(a); }
-    static I expm1(I const& a) { return t::expm1(a); }
+    static I expm1(I const& a) {
+        if constexpr (support::has_further_functions<I>)
+            return t::expm1(a);
+        else
+            return t::entire();
+    }
     static I log(I const& a) {
         mask m{};
         return t::log(a, m);
     }
     static I log1p(I const& a) {
         mask m{};
-        return t::log1p(a, m);
+        if constexpr (support::has_further_functions<I>)
+            return t::log1p(a, m);
+        else
+            return t::entire();
     }
     static I sin(I const& a) { return t::sin(a); }
     static I cos(I const& a) { return t::cos(a); }
@@ -102,15 +118,31 @@ struct operations {
     }
     static I asin(I const& a) {
         mask m{};
-        return t::asin(a, m);
+        if constexpr (support::has_further_functions<I>)
+            return t::asin(a, m);
+        else
+            return t::entire();
     }
     static I acos(I const& a) {
         mask m{};
-        return t::acos(a, m);
+        if constexpr (support::has_further_functions<I>)
+            return t::acos(a, m);
+        else
+            return t::entire();
     }
     static I atan(I const& a) { return t::atan(a); }
-    static I sinh(I const& a) { return t::sinh(a); }
-    static I cosh(I const& a) { return t::cosh(a); }
+    static I sinh(I const& a) {
+        if constexpr (support::has_further_functions<I>)
+            return t::sinh(a);
+        else
+            return t::entire();
+    }
+    static I cosh(I const& a) {
+        if constexpr (support::has_further_functions<I>)
+            return t::cosh(a);
+        else
+            return t::entire();
+    }
     static I tanh(I const& a) { return t::tanh(a); }
     // Not part of the concept: the whole line where a type does not have them.
     static I asinh(I const& a) {

@@ -123,20 +123,20 @@ TEST_CASE("an effect that delays an input, and does something else by the same p
     base.prior = box{interval(0.9, 1.1)};
     SECTION("it is weaker, too") {
         check_kept(base, {slack([](effect_scope& m) {
-                       m.delay_input("u");
+                       m.remember("u", memory_kind::delay);
                        m.input("u") *= 1 - m.parameter();
                    })},
                    {1, tau});
     }
     SECTION("it has a gain of its own") {
         check_kept(base, {slack([](effect_scope& m) {
-                       m.delay_input("u");
+                       m.remember("u", memory_kind::delay);
                        m.input("u") *= expression(0.7);
                    })},
                    {1, tau});
     }
     SECTION("it pulls at a rate") {
-        auto e = slack([](effect_scope& m) { m.delay_input("u"); });
+        auto e = slack([](effect_scope& m) { m.remember("u", memory_kind::delay); });
         e.on_rates = [](effect_scope& m) {
             m.rate("v") -= m.parameter() * m.constant("k") * m.input("u");
         };
@@ -153,7 +153,7 @@ TEST_CASE("an effect that delays an input, and does something else by the same p
             base.experiments[e].measurements = small_campaign::experiment(e, own).measurements;
         }
         auto const e = slack([](effect_scope& m) {
-            m.delay_input("u");
+            m.remember("u", memory_kind::delay);
             m.input("u") *= 1 - m.parameter();
         });
         auto const hull =
@@ -175,7 +175,7 @@ TEST_CASE("a late sensor that shows less by the same parameter") {
     e.name = "filter";
     e.parameters = {{"tau", "s", 0_dec, 0.5_dec, 0_dec}};
     e.on_channels = [](effect_scope& m) {
-        m.delay_channel("p");
+        m.show_late("p", memory_kind::delay);
         m.channel("p") *= 1 - m.parameter();
     };
     check_kept(base, {e}, {1, 0.3});

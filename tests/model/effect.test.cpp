@@ -159,8 +159,8 @@ TEST_CASE("delays are named, and binding refuses them") {
     effect late;
     late.name = "late";
     late.parameters = {{"in", "s", 0_dec, 1_dec, 0_dec}, {"out", "s", 0_dec, 1_dec, 0_dec}};
-    late.on_inputs = [](effect_scope& m) { m.delay_input("u", 0); };
-    late.on_channels = [](effect_scope& m) { m.delay_channel("y", 1); };
+    late.on_inputs = [](effect_scope& m) { m.remember("u", memory_kind::delay); };
+    late.on_channels = [](effect_scope& m) { m.show_late("y", memory_kind::delay, 1); };
     auto const m = with(tank{}, late);
     REQUIRE((m.input_memory.size() == 1 && m.channel_delays.size() == 1));
     CHECK(m.input_memory[0].constant == 1);
@@ -168,6 +168,10 @@ TEST_CASE("delays are named, and binding refuses them") {
     auto const hold = sampled_signal({0.0}, {1.0}, interpolation::hold);
     CHECK_THROWS_AS(bind(m, {}, {hold}), std::invalid_argument);
     CHECK(with(m, {}).input_memory.size() == 1);
+    for (auto const kind : {memory_kind::play, memory_kind::rate_limit}) {
+        late.on_channels = [kind](effect_scope& scope) { scope.show_late("y", kind, 1); };
+        CHECK_THROWS_AS(with(tank{}, late), std::invalid_argument);
+    }
 }
 
 TEST_CASE("an effect finds an input as it was recorded unless one before it changes that") {
@@ -185,7 +189,7 @@ TEST_CASE("an effect finds an input as it was recorded unless one before it chan
         m.rate("d") = m.input("u") - d;
     };
     effect late = doubled("late");
-    late.on_inputs = [](effect_scope& m) { m.delay_input("u"); };
+    late.on_inputs = [](effect_scope& m) { m.remember("u", memory_kind::delay); };
     auto const model = record_model(tank{});
     CHECK(finds_as_recorded(model, {last}, 0, "u"));
     CHECK(finds_as_recorded(model, {last, weaker}, 0, "u"));
@@ -258,7 +262,7 @@ TEST_CASE("an effect in some experiments only has a switch and is none where tha
     effect late, lag;
     late.name = "late";
     late.parameters = {{"tau", "s", decimal(), decimal(), decimal()}};
-    late.on_inputs = [](effect_scope& e) { e.delay_input("u"); };
+    late.on_inputs = [](effect_scope& e) { e.remember("u", memory_kind::delay); };
     lag = late;
     lag.on_inputs = [](effect_scope& e) { (void)e.add_state("d", "m", 1, e.input("u")); };
     CHECK_FALSE(with(tank{}, late).input_memory[0].only_if);
@@ -399,7 +403,8 @@ TEST_CASE("mistakes in effects are named") {
         return e;
     };
     CHECK_THROWS_WITH(with(tank{}, with_input("v")), ContainsSubstring("unknown input 'v'"));
-    CHECK_THROWS_WITH(with(tank{}, doubled("a"), doubled("a")), ContainsSubstring("two effects are called 'a'"));
+    CHECK_THROWS_WITH(with(tank{}, doubled("a"), doubled("a")),
+                      ContainsSubstring("two effects are called 'a'"));
     effect start;
     start.name = "start";
     start.on_inputs = [](effect_scope& m) { (void)m.add_state("d", "m", 1, m.state("x")); };

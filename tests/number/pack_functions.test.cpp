@@ -68,43 +68,29 @@ TEST_CASE("pack functions: operators are the operations of the traits") {
     z /= x;
     check_all_lanes(z, -12.0, 18.0); // ((([1,2] + y) - y) x) / x, no correlation
     check_all_lanes(sqr(y), 0.0, 16.0);
-    check_all_lanes(mul_add(x, y, x), -5.0, 10.0);
     check_all_lanes(hull(x, y), -3.0, 4.0);
     check_all_lanes(intersect(x, y), 1.0, 2.0);
     check_all_lanes(min(x, y), -3.0, 2.0);
     check_all_lanes(max(x, y), 1.0, 4.0);
     check_all_lanes(abs(y), 0.0, 4.0);
     check_all_lanes(sign(y), -1.0, 1.0);
-    check_all_lanes(saturate(y, T::point(-1.0), T::point(2.0)), -1.0, 2.0);
-    check_all_lanes(deadband(y, T::point(1.0)), -2.0, 3.0);
-    check_all_lanes(hypot(T::point(3.0), T::point(4.0)), 5.0, 5.0);
     check_all_lanes(pown(y, 2), 0.0, 16.0);
 }
 
 TEST_CASE("pack functions: values that are known exactly") {
     P const zero = T::point(0.0), one = T::point(1.0);
     check_all_lanes(exp(zero), 1.0, 1.0);
-    check_all_lanes(expm1(zero), 0.0, 0.0);
     check_all_lanes(log(one), 0.0, 0.0);
-    check_all_lanes(log1p(zero), 0.0, 0.0);
     check_all_lanes(sin(zero), 0.0, 0.0);
     check_all_lanes(cos(zero), 1.0, 1.0);
     check_all_lanes(tan(zero), 0.0, 0.0);
     check_all_lanes(atan(zero), 0.0, 0.0);
-    check_all_lanes(asin(zero), 0.0, 0.0);
-    check_all_lanes(acos(one), 0.0, 0.0);
-    check_all_lanes(sinh(zero), 0.0, 0.0);
-    check_all_lanes(cosh(zero), 1.0, 1.0);
     check_all_lanes(tanh(zero), 0.0, 0.0);
     check_all_lanes(exp(T::entire()), 0.0, inf);
     check_all_lanes(log(T::entire()), -inf, inf);
     check_all_lanes(tanh(T::entire()), -1.0, 1.0);
     check_all_lanes(sin(T::entire()), -1.0, 1.0);
-    check_all_lanes(cosh(T::entire()), 1.0, inf);
-    check_all_lanes(expm1(T::entire()), -1.0, inf);
     check_all_lanes(atan(T::entire()), -0x1.921fb54442d19p+0, 0x1.921fb54442d19p+0);
-    check_all_lanes(asin(T::entire()), -0x1.921fb54442d19p+0, 0x1.921fb54442d19p+0);
-    check_all_lanes(acos(T::entire()), 0.0, 0x1.921fb54442d19p+1);
     check_all_lanes(exp(T::point(1000.0)), 0x1.fffffffffffffp+1023, inf);
     check_all_lanes(exp(T::point(-1000.0)), 0.0, 0x1p-1074);
 }
@@ -144,11 +130,7 @@ TEST_CASE("pack functions: the excess width at points is what the derived errors
     namespace e = sivid::pack_error;
     CHECK(greatest_width([](P const& x) { return exp(x); }, -700.0, 700.0) <=
           allowed_width(e::exp));
-    CHECK(greatest_width([](P const& x) { return expm1(x); }, -20.0, 20.0) <=
-          allowed_width(e::expm1));
     CHECK(greatest_width([](P const& x) { return log(x); }, 0.0, 30.0) <= allowed_width(e::log));
-    CHECK(greatest_width([](P const& x) { return log1p(x); }, -1.0, 30.0) <=
-          allowed_width(e::log1p));
     CHECK(greatest_width([](P const& x) { return sin(x); }, -1e4, 1e4) <=
           allowed_width(e::sin_cos));
     CHECK(greatest_width([](P const& x) { return cos(x); }, -1e4, 1e4) <=
@@ -156,12 +138,6 @@ TEST_CASE("pack functions: the excess width at points is what the derived errors
     CHECK(greatest_width([](P const& x) { return tan(x); }, -1e4, 1e4) <= allowed_width(e::tan));
     CHECK(greatest_width([](P const& x) { return atan(x); }, -20.0, 20.0) <=
           allowed_width(e::atan));
-    CHECK(greatest_width([](P const& x) { return asin(x); }, -1.0, 1.0) <= allowed_width(e::asin));
-    CHECK(greatest_width([](P const& x) { return acos(x); }, -1.0, 1.0) <= allowed_width(e::acos));
-    CHECK(greatest_width([](P const& x) { return sinh(x); }, -20.0, 20.0) <=
-          allowed_width(e::sinh));
-    CHECK(greatest_width([](P const& x) { return cosh(x); }, -20.0, 20.0) <=
-          allowed_width(e::cosh));
     CHECK(greatest_width([](P const& x) { return tanh(x); }, -20.0, 20.0) <=
           allowed_width(e::tanh));
 }
@@ -212,18 +188,9 @@ TEST_CASE("pack functions: forms with a mask of cut lanes") {
     CHECK(sqrt(x, cut).lower(3) == 0.0);
     CHECK(cut == 0b1000);
     cut = 0;
-    CHECK(log1p(x, cut).lower(3) == -inf);
-    CHECK(cut == 0b1000);
-    cut = 0;
-    CHECK(pow(x, T::point(0.5), cut).lower(3) == 0.0);
-    CHECK(cut == 0b1000);
+    CHECK(log(T::bounds(-1.0, 1.0), cut).lower(3) == -inf);
+    CHECK(cut == T::all_lanes);
     cut = 0;
     CHECK(pown(x, -2, cut).lower(3) == 1.0);
-    CHECK(cut == 0b1000);
-    cut = 0;
-    CHECK(acosh(x, cut).lower(3) == 0.0);
-    CHECK(cut == 0b1000);
-    cut = 0;
-    CHECK(atan2(x, x, cut).upper(3) > 3.14);
     CHECK(cut == 0b1000);
 }

@@ -120,10 +120,6 @@ void same_as_vocabulary(outcome& o, std::uint64_t seed, int rounds) {
         results("intersect", t::intersect(x, y),
                 [&](std::size_t i) { return v::intersect(a[i], b[i]); });
         results("sign", t::sign(x), [&](std::size_t i) { return v::sign(a[i]); });
-        results("saturate", t::saturate(x, y, z),
-                [&](std::size_t i) { return v::saturate(a[i], b[i], c[i]); });
-        results("deadband", t::deadband(x, y),
-                [&](std::size_t i) { return v::deadband(a[i], b[i]); });
         bool ignored = false;
         results("div", t::div(x, y, cut),
                 [&](std::size_t i) { return v::div(a[i], b[i], ignored); });
@@ -138,13 +134,8 @@ void same_as_vocabulary(outcome& o, std::uint64_t seed, int rounds) {
         results("pown -1", t::pown(x, -1, cut),
                 [&](std::size_t i) { return v::div(v::point(1.0), a[i], ignored); });
         masks("pown -1", cut, cuts([&](std::size_t i, bool& flag) { v::pown(a[i], -1, flag); }));
-        for (auto const& [name, f, g] : {std::tuple{"log cut", &t::log, &v::log},
-                                         {"log1p cut", &t::log1p, &v::log1p},
-                                         {"asin cut", &t::asin, &v::asin},
-                                         {"acos cut", &t::acos, &v::acos},
-                                         {"tan cut", &t::tan, &v::tan},
-                                         {"acosh cut", &t::acosh, &v::acosh},
-                                         {"atanh cut", &t::atanh, &v::atanh}}) {
+        for (auto const& [name, f, g] :
+             {std::tuple{"log cut", &t::log, &v::log}, {"tan cut", &t::tan, &v::tan}}) {
             cut = 0;
             P const got = f(x, cut);
             auto const exact = g;
@@ -163,8 +154,7 @@ void same_as_vocabulary(outcome& o, std::uint64_t seed, int rounds) {
         double const number = in.mixed();
         masks("contains", t::contains(x, number),
               [&](std::size_t i) { return v::contains(a[i], number); });
-        P const e[] = {t::exp(x),  t::sin(x),  t::cos(x),  t::atan(x),
-                       t::sinh(x), t::cosh(x), t::tanh(x), t::expm1(x)};
+        P const e[] = {t::exp(x), t::sin(x), t::cos(x), t::atan(x), t::tanh(x)};
         for (P const& f : e)
             masks("empty stays empty", t::is_empty(f),
                   [&](std::size_t i) { return v::is_empty(a[i]); });
@@ -224,21 +214,15 @@ void in_mode(outcome& o, int mode, std::string const& name) {
         mask m{};
         return t::div(x, y, m);
     });
-    binary("hypot", mpfr_hypot, [](P const& x, P const& y) { return t::hypot(x, y); });
     unary("sqrt", mpfr_sqrt, [](P const& x) {
         mask m{};
         return t::sqrt(x, m);
     });
     unary("sqr", mpfr_sqr, [](P const& x) { return t::sqr(x); });
     unary("exp", mpfr_exp, [](P const& x) { return t::exp(x); });
-    unary("expm1", mpfr_expm1, [](P const& x) { return t::expm1(x); });
     unary("log", mpfr_log, [](P const& x) {
         mask m{};
         return t::log(x, m);
-    });
-    unary("log1p", mpfr_log1p, [](P const& x) {
-        mask m{};
-        return t::log1p(x, m);
     });
     unary("sin", mpfr_sin, [](P const& x) { return t::sin(x); });
     unary("cos", mpfr_cos, [](P const& x) { return t::cos(x); });
@@ -247,16 +231,6 @@ void in_mode(outcome& o, int mode, std::string const& name) {
         return t::tan(x, m);
     });
     unary("atan", mpfr_atan, [](P const& x) { return t::atan(x); });
-    unary("asin", mpfr_asin, [](P const& x) {
-        mask m{};
-        return t::asin(x, m);
-    });
-    unary("acos", mpfr_acos, [](P const& x) {
-        mask m{};
-        return t::acos(x, m);
-    });
-    unary("sinh", mpfr_sinh, [](P const& x) { return t::sinh(x); });
-    unary("cosh", mpfr_cosh, [](P const& x) { return t::cosh(x); });
     unary("tanh", mpfr_tanh, [](P const& x) { return t::tanh(x); });
 }
 
@@ -287,7 +261,6 @@ void check_width(outcome& o) {
 outcome check_all() {
     outcome o;
     if (!sivid::pack_supported()) o.failures.emplace_back("pack_supported() is false");
-    sivid::require_pack_support();
     check_width<native>(o);
     if constexpr (native > 4) check_width<4>(o); // narrower vectors in a build for wider ones
     if constexpr (native > 2) check_width<2>(o);

@@ -8,6 +8,7 @@
 
 #include "support/catch.hpp"
 #include "support/flushing.hpp"
+#include "support/further_functions.hpp"
 
 #include <array>
 #include <bit>
@@ -126,23 +127,25 @@ TEMPLATE_TEST_CASE("elementary functions hold under FTZ and DAZ", "", interval, 
         return;
     }
     SIVID_SAME("exp", u::exp(x));
-    SIVID_SAME("expm1", u::expm1(x));
     SIVID_SAME("log", u::log(x, cut));
-    SIVID_SAME("log1p", u::log1p(x, cut));
     SIVID_SAME("sin", u::sin(x));
     SIVID_SAME("cos", u::cos(x));
     SIVID_SAME("tan", u::tan(x, cut));
-    SIVID_SAME("asin", u::asin(x, cut));
-    SIVID_SAME("acos", u::acos(x, cut));
     SIVID_SAME("atan", u::atan(x));
-    SIVID_SAME("sinh", u::sinh(x));
-    SIVID_SAME("cosh", u::cosh(x));
     SIVID_SAME("tanh", u::tanh(x));
-    SIVID_SAME("asinh", u::asinh(x));
-    SIVID_SAME("acosh", u::acosh(x, cut));
-    SIVID_SAME("atanh", u::atanh(x, cut));
-    SIVID_SAME("pow", u::pow(x, y, cut));
-    SIVID_SAME("atan2", u::atan2(x, y, cut));
+    if constexpr (support::has_further_functions<TestType>) {
+        SIVID_SAME("expm1", u::expm1(x));
+        SIVID_SAME("log1p", u::log1p(x, cut));
+        SIVID_SAME("asin", u::asin(x, cut));
+        SIVID_SAME("acos", u::acos(x, cut));
+        SIVID_SAME("sinh", u::sinh(x));
+        SIVID_SAME("cosh", u::cosh(x));
+        SIVID_SAME("asinh", u::asinh(x));
+        SIVID_SAME("acosh", u::acosh(x, cut));
+        SIVID_SAME("atanh", u::atanh(x, cut));
+        SIVID_SAME("pow", u::pow(x, y, cut));
+        SIVID_SAME("atan2", u::atan2(x, y, cut));
+    }
 }
 
 TEST_CASE("powers and roots of intervals hold under FTZ and DAZ") {

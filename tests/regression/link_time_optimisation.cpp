@@ -51,25 +51,27 @@ template <class T>
     check<T>(                                                                                      \
         type, name, from, to, [&](I const& x) { return call; }, [](L x) { return exact; })
     SIVID_CHECK("exp", -20.3, 20.7, T::exp(x), expl(x));
-    SIVID_CHECK("expm1", -3.3, 3.7, T::expm1(x), expm1l(x));
     SIVID_CHECK("log", 0.01, 90.1, T::log(x, cut), logl(x));
-    SIVID_CHECK("log1p", -0.99, 90.1, T::log1p(x, cut), log1pl(x));
     SIVID_CHECK("sin", 0.01, 6.3, T::sin(x), sinl(x));
     SIVID_CHECK("cos", 0.01, 6.3, T::cos(x), cosl(x));
     SIVID_CHECK("tan", -1.5, 1.5, T::tan(x, cut), tanl(x));
-    SIVID_CHECK("asin", -0.99, 0.99, T::asin(x, cut), asinl(x));
-    SIVID_CHECK("acos", -0.99, 0.99, T::acos(x, cut), acosl(x));
     SIVID_CHECK("atan", -9.1, 9.3, T::atan(x), atanl(x));
-    SIVID_CHECK("sinh", -9.1, 9.3, T::sinh(x), sinhl(x));
-    SIVID_CHECK("cosh", -9.1, 9.3, T::cosh(x), coshl(x));
     SIVID_CHECK("tanh", -3.1, 3.3, T::tanh(x), tanhl(x));
-    SIVID_CHECK("asinh", -9.1, 9.3, T::asinh(x), asinhl(x));
-    SIVID_CHECK("acosh", 1.01, 9.3, T::acosh(x, cut), acoshl(x));
-    SIVID_CHECK("atanh", -0.99, 0.99, T::atanh(x, cut), atanhl(x));
-    SIVID_CHECK("pow", 0.01, 9.3, T::pow(x, T::point(0.3), cut), powl(x, static_cast<L>(0.3)));
-    SIVID_CHECK("atan2", 0.01, 9.3, T::atan2(x, T::point(0.3), cut),
-                atan2l(x, static_cast<L>(0.3)));
-    SIVID_CHECK("hypot", 0.01, 9.3, T::hypot(x, T::point(0.3)), hypotl(x, static_cast<L>(0.3)));
+    if constexpr (requires(I const& x) { T::expm1(x); }) { // packs have what models are made of
+        SIVID_CHECK("expm1", -3.3, 3.7, T::expm1(x), expm1l(x));
+        SIVID_CHECK("log1p", -0.99, 90.1, T::log1p(x, cut), log1pl(x));
+        SIVID_CHECK("asin", -0.99, 0.99, T::asin(x, cut), asinl(x));
+        SIVID_CHECK("acos", -0.99, 0.99, T::acos(x, cut), acosl(x));
+        SIVID_CHECK("sinh", -9.1, 9.3, T::sinh(x), sinhl(x));
+        SIVID_CHECK("cosh", -9.1, 9.3, T::cosh(x), coshl(x));
+        SIVID_CHECK("asinh", -9.1, 9.3, T::asinh(x), asinhl(x));
+        SIVID_CHECK("acosh", 1.01, 9.3, T::acosh(x, cut), acoshl(x));
+        SIVID_CHECK("atanh", -0.99, 0.99, T::atanh(x, cut), atanhl(x));
+        SIVID_CHECK("pow", 0.01, 9.3, T::pow(x, T::point(0.3), cut), powl(x, static_cast<L>(0.3)));
+        SIVID_CHECK("atan2", 0.01, 9.3, T::atan2(x, T::point(0.3), cut),
+                    atan2l(x, static_cast<L>(0.3)));
+        SIVID_CHECK("hypot", 0.01, 9.3, T::hypot(x, T::point(0.3)), hypotl(x, static_cast<L>(0.3)));
+    }
     SIVID_CHECK("sqrt", 0.01, 9.3, T::sqrt(x, cut), sqrtl(x));
     SIVID_CHECK("pown", 0.01, 9.3, T::pown(x, 5, cut), x * x * x * x * x);
     SIVID_CHECK("pown", 0.01, 9.3, T::pown(x, -3, cut), 1 / (x * x * x));

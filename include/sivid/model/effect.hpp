@@ -149,18 +149,15 @@ public:
     ///                  effects added before
     expression add_state(std::string const& name, std::string const& unit, double limit,
                          expression const& at_begin);
-    /// The model sees the input behind a play, whose half-width is the effect's k-th parameter.
-    void play_input(std::string const& name, std::size_t k = 0);
-    /// The model sees the input behind a rate limit, which is the effect's k-th parameter.
-    void limit_input_rate(std::string const& name, std::size_t k = 0);
-    /// The model sees the input late, by the effect's k-th parameter.
-    void delay_input(std::string const& name, std::size_t k = 0);
-    /// The channel shows the past, by the effect's k-th parameter.
-    void delay_channel(std::string const& name, std::size_t k = 0);
-    /// The clock of an input, or of a channel, runs slow: it is late by the effect's k-th parameter
-    /// times the time since the begin.
-    void slow_input_clock(std::string const& name, std::size_t k = 0);
-    void slow_channel_clock(std::string const& name, std::size_t k = 0);
+    /// The model sees the input behind a memory whose size is the effect's k-th parameter: late, by
+    /// a time or (`drift`: its clock runs slow) by a share of the time since the begin; behind a
+    /// play of this half-width; behind a rate limit.
+    void remember(std::string const& input, memory_kind kind, std::size_t k = 0);
+    /// The channel shows the past, by the effect's k-th parameter: late by a time or, where its
+    /// clock runs slow, by a share of the time since the begin.
+    /// @param kind  `delay` or `drift`
+    /// @throws std::invalid_argument  for another kind
+    void show_late(std::string const& channel, memory_kind kind, std::size_t k = 0);
     /// The channel h follows by a first-order lag, whose time constant tau > 0 is the effect's k-th
     /// parameter, from its own value at the begin on: it shows h - w, w' = h' - w/tau, w = 0 there.
     /// @throws std::invalid_argument  for a channel that shows anything but a state as it is
@@ -181,8 +178,6 @@ private:
     void begin(effect const& e, std::size_t first_parameter);
     /// Writes down that an effect names an input.
     void note(std::size_t input) const;
-    void remember(std::string const& input, std::size_t k, memory_kind kind);
-    void show_late(std::string const& channel, std::size_t k, memory_kind kind);
     /// An input (by index) and its copies, which are behind the same memories.
     [[nodiscard]] std::vector<std::size_t> with_copies(std::size_t input) const;
     /// The switch of the effect, as an input; none: it acts in all experiments.

@@ -51,14 +51,9 @@ struct parameter_choice {
     std::vector<derived_constant> result;
     for (auto const& d : model.derived) {
         if (moved[d.constant]) continue;
-        auto const needed = operands_of(model.g, {d.value});
-        bool follows = d.always;
-        for (std::size_t i = 0; i < needed.size(); ++i) {
-            auto const& n = model.g.nodes()[i];
-            follows = follows || (needed[i] && n.op == operation::constant &&
-                                  moved[static_cast<std::size_t>(n.index)]);
-        }
-        if (!follows) continue;
+        auto const of = leaves_of(model.g, {d.value}, operation::constant);
+        if (!d.always && std::none_of(of.begin(), of.end(), [&](auto k) { return moved[k]; }))
+            continue;
         moved[d.constant] = true;
         result.push_back(d);
     }

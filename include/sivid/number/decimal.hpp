@@ -42,9 +42,12 @@ struct decimal {
 };
 
 namespace detail {
+template <>
+inline constexpr bool is_exact<decimal> = true;
+
 template <char... C>
 inline constexpr std::array<char, sizeof...(C) + 1> literal_text{C..., '\0'};
-}
+} // namespace detail
 
 inline namespace literals {
 /// `0.1_dec`: exactly one tenth. Integers, decimals and hexadecimal floats as C++ writes them.
@@ -72,56 +75,13 @@ SIVID_DECL std::optional<double> parse_nearest(std::string_view text);
 
 /// Anything with an exact meaning: a decimal, a whole number, an interval.
 template <class T>
-concept exact_number = std::same_as<T, decimal> || std::integral<T> || std::same_as<T, interval>;
-
-namespace detail {
-inline interval exactly(decimal d) { return enclose(d); }
-inline interval exactly(interval const& x) { return x; }
-template <std::integral N>
-interval exactly(N n) {
-    return interval{n, n};
-}
-} // namespace detail
+concept exact_number = exact_operand<T> || std::same_as<T, interval>;
 
 /// The least interval that contains both, for instance hull(0.10_dec, 0.12_dec) or hull(0.1_dec,
 /// 3).
 template <exact_number A, exact_number B>
     requires(!(std::same_as<A, interval> && std::same_as<B, interval>))
 interval hull(A const& a, B const& b) { return hull(detail::exactly(a), detail::exactly(b)); }
-
-// Decimals beside intervals.
-template <std::same_as<interval> I>
-I operator+(I const& x, decimal d) {
-    return x + enclose(d);
-}
-template <std::same_as<interval> I>
-I operator+(decimal d, I const& x) {
-    return enclose(d) + x;
-}
-template <std::same_as<interval> I>
-I operator-(I const& x, decimal d) {
-    return x - enclose(d);
-}
-template <std::same_as<interval> I>
-I operator-(decimal d, I const& x) {
-    return enclose(d) - x;
-}
-template <std::same_as<interval> I>
-I operator*(I const& x, decimal d) {
-    return x * enclose(d);
-}
-template <std::same_as<interval> I>
-I operator*(decimal d, I const& x) {
-    return enclose(d) * x;
-}
-template <std::same_as<interval> I>
-I operator/(I const& x, decimal d) {
-    return x / enclose(d);
-}
-template <std::same_as<interval> I>
-I operator/(decimal d, I const& x) {
-    return enclose(d) / x;
-}
 
 } // namespace sivid
 

@@ -216,39 +216,60 @@ operator/(double x, boost::numeric::interval<double, P> const& y) noexcept {
     return interval{x} / y;
 }
 
+namespace detail {
+/// Whether a T stands for one exact number, which `interval{n, n}` or `enclose(n)` encloses.
+template <class T>
+inline constexpr bool is_exact = std::integral<T>;
+
+/// The tightest interval that contains n, or the interval n.
+template <class T>
+interval exactly(T const& n) {
+    if constexpr (std::integral<T>)
+        return {n, n};
+    else if constexpr (std::same_as<T, interval>)
+        return n;
+    else
+        return enclose(n);
+}
+} // namespace detail
+
+/// What has an exact meaning beside an interval: whole numbers, and decimals (decimal.hpp).
+template <class T>
+concept exact_operand = detail::is_exact<T>;
+
 // Whole numbers beside intervals are exact (or enclosed above 2^53); Boost offers doubles only.
 // Templates on the interval, since Boost's implicit constructor would let any type convert to it.
-template <std::same_as<interval> I, std::integral N>
-I operator+(I const& x, N n) {
-    return x + interval{n, n};
+template <std::same_as<interval> I, exact_operand T>
+I operator+(I const& x, T n) {
+    return x + detail::exactly(n);
 }
-template <std::integral N, std::same_as<interval> I>
-I operator+(N n, I const& x) {
-    return interval{n, n} + x;
+template <exact_operand T, std::same_as<interval> I>
+I operator+(T n, I const& x) {
+    return detail::exactly(n) + x;
 }
-template <std::same_as<interval> I, std::integral N>
-I operator-(I const& x, N n) {
-    return x - interval{n, n};
+template <std::same_as<interval> I, exact_operand T>
+I operator-(I const& x, T n) {
+    return x - detail::exactly(n);
 }
-template <std::integral N, std::same_as<interval> I>
-I operator-(N n, I const& x) {
-    return interval{n, n} - x;
+template <exact_operand T, std::same_as<interval> I>
+I operator-(T n, I const& x) {
+    return detail::exactly(n) - x;
 }
-template <std::same_as<interval> I, std::integral N>
-I operator*(I const& x, N n) {
-    return x * interval{n, n};
+template <std::same_as<interval> I, exact_operand T>
+I operator*(I const& x, T n) {
+    return x * detail::exactly(n);
 }
-template <std::integral N, std::same_as<interval> I>
-I operator*(N n, I const& x) {
-    return interval{n, n} * x;
+template <exact_operand T, std::same_as<interval> I>
+I operator*(T n, I const& x) {
+    return detail::exactly(n) * x;
 }
-template <std::same_as<interval> I, std::integral N>
-I operator/(I const& x, N n) {
-    return x / interval{n, n};
+template <std::same_as<interval> I, exact_operand T>
+I operator/(I const& x, T n) {
+    return x / detail::exactly(n);
 }
-template <std::integral N, std::same_as<interval> I>
-I operator/(N n, I const& x) {
-    return interval{n, n} / x;
+template <exact_operand T, std::same_as<interval> I>
+I operator/(T n, I const& x) {
+    return detail::exactly(n) / x;
 }
 
 } // namespace sivid

@@ -9,6 +9,7 @@
 
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/traits_by_bounds.hpp>
 
 #include <boost/multiprecision/mpfi.hpp>
 
@@ -26,10 +27,10 @@ using mp_interval = basic_mp_interval<40>;
 /// Bounds are read outward in double. Every function is the hull of correctly rounded values at the
 /// ends (and of the extrema between), in the precision of the type.
 template <unsigned Digits10>
-struct interval_traits<basic_mp_interval<Digits10>> {
+struct interval_traits<basic_mp_interval<Digits10>>
+    : traits_by_bounds<basic_mp_interval<Digits10>> {
     using I = basic_mp_interval<Digits10>;
     using mask = bool;
-    static constexpr std::size_t lanes = 1;
 
     // Making.
     static I point(double t) { return bounds(t, t); }
@@ -47,7 +48,7 @@ struct interval_traits<basic_mp_interval<Digits10>> {
     }
     static I entire() { return bounds(-detail::infinity, detail::infinity); }
 
-    // Reading.
+    // Reading; the middle and so on are those of the enclosure in double.
     static double lower(I const& a, std::size_t = 0) {
         return mpfr_get_d(&raw(a)->left, MPFR_RNDD);
     }
@@ -56,19 +57,6 @@ struct interval_traits<basic_mp_interval<Digits10>> {
     }
     /// The enclosure in double.
     static interval to_interval(I const& a) { return detail::bounded(lower(a), upper(a)); }
-    static double mid(I const& a, std::size_t = 0) {
-        // In double, but inside a where a double is.
-        interval const x = to_interval(a);
-        return sivid::mid(x);
-    }
-    static double rad(I const& a, std::size_t = 0) { return sivid::rad(to_interval(a)); }
-    static double width(I const& a, std::size_t = 0) { return sivid::width(to_interval(a)); }
-    static double mag(I const& a, std::size_t = 0) { return sivid::mag(to_interval(a)); }
-    static double mig(I const& a, std::size_t = 0) {
-        if (is_empty(a)) return detail::not_a_number;
-        if (mpfr_sgn(&raw(a)->left) > 0) return mpfr_get_d(&raw(a)->left, MPFR_RNDD);
-        return mpfr_sgn(&raw(a)->right) < 0 ? -mpfr_get_d(&raw(a)->right, MPFR_RNDU) : 0.0;
-    }
     static bool is_empty(I const& a) {
         return mpfr_lessequal_p(&raw(a)->left, &raw(a)->right) == 0;
     }
@@ -112,14 +100,8 @@ struct interval_traits<basic_mp_interval<Digits10>> {
     }
 
     // Arithmetic.
-    static I neg(I const& a) { return mirrored(a); }
-    static I add(I const& a, I const& b) {
-        if (is_empty(a) || is_empty(b)) return empty();
-        return made([&](mpfr_ptr lo, mpfr_ptr hi) {
-            mpfr_add(lo, &raw(a)->left, &raw(b)->left, MPFR_RNDD);
-            mpfr_add(hi, &raw(a)->right, &raw(b)->right, MPFR_RNDU);
-        });
-    }
+    static I neg(I const& a) { return decreasing(mpfr_neg, a); }
+    static I add(I const& a, I const& b) { return increasing(mpfr_add, a, b); }
     static I sub(I const& a, I const& b) { return add(a, neg(b)); }
     static I mul(I const& a, I const& b) { return corners(mpfr_mul, a, b); }
     static I div(I const& a, I const& b, mask& undefined) {
@@ -134,11 +116,7 @@ struct interval_traits<basic_mp_interval<Digits10>> {
                    ? half
                    : hull(positive, negative);
     }
-    static I sqr(I const& a) {
-        if (is_empty(a)) return a;
-        I const m = abs(a);
-        return increasing(mpfr_sqr, m);
-    }
+    static I sqr(I const& a) { return increasing(mpfr_sqr, abs(a)); }
     static I abs(I const& a) {
         if (is_empty(a) || mpfr_sgn(&raw(a)->left) >= 0) return a;
         if (mpfr_sgn(&raw(a)->right) <= 0) return neg(a);
@@ -148,22 +126,9 @@ struct interval_traits<basic_mp_interval<Digits10>> {
             mpfr_max(hi, hi, &raw(a)->right, MPFR_RNDU);
         });
     }
-    static I min(I const& a, I const& b) {
-        if (is_empty(a) || is_empty(b)) return empty();
-        return made([&](mpfr_ptr lo, mpfr_ptr hi) {
-            mpfr_min(lo, &raw(a)->left, &raw(b)->left, MPFR_RNDD);
-            mpfr_min(hi, &raw(a)->right, &raw(b)->right, MPFR_RNDU);
-        });
-    }
+    static I min(I const& a, I const& b) { return increasing(mpfr_min, a, b); }
     static I max(I const& a, I const& b) { return neg(min(neg(a), neg(b))); }
-    static I hypot(I const& a, I const& b) {
-        if (is_empty(a) || is_empty(b)) return empty();
-        I const u = abs(a), v = abs(b);
-        return made([&](mpfr_ptr lo, mpfr_ptr hi) {
-            mpfr_hypot(lo, &raw(u)->left, &raw(v)->left, MPFR_RNDD);
-            mpfr_hypot(hi, &raw(u)->right, &raw(v)->right, MPFR_RNDU);
-        });
-    }
+    static I hypot(I const& a, I const& b) { return increasing(mpfr_hypot, abs(a), abs(b)); }
 
     // Elementary functions.
     static I sqrt(I const& a, mask& cut) {
@@ -208,12 +173,7 @@ struct interval_traits<basic_mp_interval<Digits10>> {
         return increasing(mpfr_asin, restricted(a, -1.0, 1.0, cut));
     }
     static I acos(I const& a, mask& cut) {
-        I const x = restricted(a, -1.0, 1.0, cut);
-        if (is_empty(x)) return x;
-        return made([&](mpfr_ptr lo, mpfr_ptr hi) {
-            mpfr_acos(lo, &raw(x)->right, MPFR_RNDD);
-            mpfr_acos(hi, &raw(x)->left, MPFR_RNDU);
-        });
+        return decreasing(mpfr_acos, restricted(a, -1.0, 1.0, cut));
     }
     static I atan(I const& a) { return increasing(mpfr_atan, a); }
     static I atan2(I const& y, I const& x, mask& cut) {
@@ -235,7 +195,7 @@ struct interval_traits<basic_mp_interval<Digits10>> {
             neg(upper_half_angle(neg(intersect(y, bounds(-detail::infinity, 0.0))), right)));
     }
     static I sinh(I const& a) { return increasing(mpfr_sinh, a); }
-    static I cosh(I const& a) { return is_empty(a) ? a : increasing(mpfr_cosh, abs(a)); }
+    static I cosh(I const& a) { return increasing(mpfr_cosh, abs(a)); }
     static I tanh(I const& a) { return increasing(mpfr_tanh, a); }
     static I asinh(I const& a) { return increasing(mpfr_asinh, a); }
     static I acosh(I const& a, mask& cut) {
@@ -286,10 +246,11 @@ private:
     static bool is_zero(I const& a) {
         return mpfr_zero_p(&raw(a)->left) != 0 && mpfr_zero_p(&raw(a)->right) != 0;
     }
-    static I mirrored(I const& a) {
+    static I decreasing(unary f, I const& a) {
+        if (is_empty(a)) return a;
         return made([&](mpfr_ptr lo, mpfr_ptr hi) {
-            mpfr_neg(lo, &raw(a)->right, MPFR_RNDD);
-            mpfr_neg(hi, &raw(a)->left, MPFR_RNDU);
+            f(lo, &raw(a)->right, MPFR_RNDD);
+            f(hi, &raw(a)->left, MPFR_RNDU);
         });
     }
     static I increasing(unary f, I const& a) {
@@ -297,6 +258,13 @@ private:
         return made([&](mpfr_ptr lo, mpfr_ptr hi) {
             f(lo, &raw(a)->left, MPFR_RNDD);
             f(hi, &raw(a)->right, MPFR_RNDU);
+        });
+    }
+    static I increasing(binary f, I const& a, I const& b) {
+        if (is_empty(a) || is_empty(b)) return empty();
+        return made([&](mpfr_ptr lo, mpfr_ptr hi) {
+            f(lo, &raw(a)->left, &raw(b)->left, MPFR_RNDD);
+            f(hi, &raw(a)->right, &raw(b)->right, MPFR_RNDU);
         });
     }
     static I library(int (*f)(mpfi_ptr, mpfi_srcptr), I const& a) {
@@ -317,13 +285,7 @@ private:
         return intersect(a, bounds(lo, hi));
     }
     /// The same set, zero bounds with a positive sign: mpfr_log and mpfr_pow tell -0 from +0.
-    static I magnitude(I const& a) {
-        if (is_empty(a)) return a;
-        return made([&](mpfr_ptr lo, mpfr_ptr hi) {
-            mpfr_abs(lo, &raw(a)->left, MPFR_RNDD);
-            mpfr_abs(hi, &raw(a)->right, MPFR_RNDU);
-        });
-    }
+    static I magnitude(I const& a) { return increasing(mpfr_abs, a); }
     /// Extremes of f at the corners; 0 * inf and inf / inf count as 0.
     static I corners(binary f, I const& a, I const& b) {
         if (is_empty(a) || is_empty(b)) return empty();

@@ -144,26 +144,7 @@ private:
 
 static_assert(std::is_trivially_copyable_v<pack<8>> && std::is_trivially_copyable_v<pack<1>>);
 
-/// @throws  unsound_environment if the machine lacks the instructions that packs were compiled for,
-/// or
-///          if their directed rounding has no effect.
-inline void require_pack_support() {
-    if (!pack_supported())
-        throw unsound_environment{
-            "this program was compiled for vector instructions that the machine does not have"};
-    auto const third = [](auto one, auto three) {
-        using V = decltype(one);
-        using d = simd::directed<V>;
-        auto const narrow = d::div_up(one, three) <= d::div_down(one, three);
-        return narrow.bits() == 0;
-    };
-    using V = typename pack<8>::vector;
-    if (!third(V(detail::opaque(1.0)), V(detail::opaque(3.0))))
-        throw unsound_environment{"directed rounding of packs has no effect"};
-}
-
 } // namespace SIVID_PACK_TARGET
-
 } // namespace sivid
 
 #endif

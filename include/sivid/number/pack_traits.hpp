@@ -88,128 +88,43 @@ struct pack_traits {
             },
             a, b);
     }
-    static I hull(I const& a, I const& b) noexcept {
-        return map([](part const& x, part const& y) { return simd::hull(x, y); }, a, b);
-    }
-    static I intersect(I const& a, I const& b) noexcept {
-        return map([](part const& x, part const& y) { return simd::intersect(x, y); }, a, b);
-    }
+    static I hull(I const& a, I const& b) noexcept { return map<simd::hull<V>>(a, b); }
+    static I intersect(I const& a, I const& b) noexcept { return map<simd::intersect<V>>(a, b); }
 
     // Arithmetic: tight.
-    static I neg(I const& a) noexcept {
-        return map([](part const& x) { return simd::neg(x); }, a);
-    }
-    static I add(I const& a, I const& b) noexcept {
-        return map([](part const& x, part const& y) { return simd::add(x, y); }, a, b);
-    }
-    static I sub(I const& a, I const& b) noexcept {
-        return map([](part const& x, part const& y) { return simd::sub(x, y); }, a, b);
-    }
-    static I mul(I const& a, I const& b) noexcept {
-        return map([](part const& x, part const& y) { return simd::mul(x, y); }, a, b);
-    }
+    static I neg(I const& a) noexcept { return map<simd::neg<V>>(a); }
+    static I add(I const& a, I const& b) noexcept { return map<simd::add<V>>(a, b); }
+    static I sub(I const& a, I const& b) noexcept { return map<simd::sub<V>>(a, b); }
+    static I mul(I const& a, I const& b) noexcept { return map<simd::mul<V>>(a, b); }
     static I div(I const& a, I const& b, mask& undefined) noexcept {
-        return flagged([](part const& x, part const& y, M& m) { return simd::div(x, y, m); },
-                       undefined, a, b);
+        return flagged<simd::div<V>>(undefined, a, b);
     }
-    static I sqr(I const& a) noexcept {
-        return map([](part const& x) { return simd::sqr(x); }, a);
-    }
-    static I abs(I const& a) noexcept {
-        return map([](part const& x) { return simd::abs(x); }, a);
-    }
-    static I min(I const& a, I const& b) noexcept {
-        return map([](part const& x, part const& y) { return simd::min(x, y); }, a, b);
-    }
-    static I max(I const& a, I const& b) noexcept {
-        return map([](part const& x, part const& y) { return simd::max(x, y); }, a, b);
-    }
+    static I sqr(I const& a) noexcept { return map<simd::sqr<V>>(a); }
+    static I abs(I const& a) noexcept { return map<simd::abs<V>>(a); }
+    static I min(I const& a, I const& b) noexcept { return map<simd::min<V>>(a, b); }
+    static I max(I const& a, I const& b) noexcept { return map<simd::max<V>>(a, b); }
     static I sqrt(I const& a, mask& undefined) noexcept {
-        return flagged([](part const& x, M& m) { return simd::sqrt(x, m); }, undefined, a);
+        return flagged<simd::sqrt<V>>(undefined, a);
     }
-    /// a b + c with two roundings a side.
-    static I mul_add(I const& a, I const& b, I const& c) noexcept { return add(mul(a, b), c); }
     /// By squaring: up to 2 log2 |n| roundings a side.
     static I pown(I const& a, int n, mask& undefined) noexcept {
-        return flagged([n](part const& x, M& m) { return simd::pown(x, n, m); }, undefined, a);
-    }
-    static I hypot(I const& a, I const& b) noexcept {
-        return map([](part const& x, part const& y) { return simd::hypot(x, y); }, a, b);
+        return flagged<simd::pown<V>>(undefined, a, n);
     }
 
     // Elementary functions: error bounds in docs/pack_functions.md.
-    static I exp(I const& a) noexcept {
-        return map([](part const& x) { return simd::exp(x); }, a);
-    }
-    static I expm1(I const& a) noexcept {
-        return map([](part const& x) { return simd::expm1(x); }, a);
-    }
+    static I exp(I const& a) noexcept { return map<simd::exp<V>>(a); }
     static I log(I const& a, mask& undefined) noexcept {
-        return flagged([](part const& x, M& m) { return simd::log(x, m); }, undefined, a);
+        return flagged<simd::log<V>>(undefined, a);
     }
-    static I log1p(I const& a, mask& undefined) noexcept {
-        return flagged([](part const& x, M& m) { return simd::log1p(x, m); }, undefined, a);
-    }
-    static I sin(I const& a) noexcept {
-        return map([](part const& x) { return simd::sin(x); }, a);
-    }
-    static I cos(I const& a) noexcept {
-        return map([](part const& x) { return simd::cos(x); }, a);
-    }
+    static I sin(I const& a) noexcept { return map<simd::sin<V>>(a); }
+    static I cos(I const& a) noexcept { return map<simd::cos<V>>(a); }
     static I tan(I const& a, mask& undefined) noexcept {
-        return flagged([](part const& x, M& m) { return simd::tan(x, m); }, undefined, a);
+        return flagged<simd::tan<V>>(undefined, a);
     }
-    static I asin(I const& a, mask& undefined) noexcept {
-        return flagged([](part const& x, M& m) { return simd::asin(x, m); }, undefined, a);
-    }
-    static I acos(I const& a, mask& undefined) noexcept {
-        return flagged([](part const& x, M& m) { return simd::acos(x, m); }, undefined, a);
-    }
-    static I atan(I const& a) noexcept {
-        return map([](part const& x) { return simd::atan(x); }, a);
-    }
-    static I sinh(I const& a) noexcept {
-        return map([](part const& x) { return simd::sinh(x); }, a);
-    }
-    static I cosh(I const& a) noexcept {
-        return map([](part const& x) { return simd::cosh(x); }, a);
-    }
-    static I tanh(I const& a) noexcept {
-        return map([](part const& x) { return simd::tanh(x); }, a);
-    }
+    static I atan(I const& a) noexcept { return map<simd::atan<V>>(a); }
+    static I tanh(I const& a) noexcept { return map<simd::tanh<V>>(a); }
 
-    // Lane by lane through the vocabulary type, with its excess.
-    static I pow(I const& a, I const& b, mask& undefined) noexcept {
-        return flagged([](part const& x, part const& y, M& m) { return simd::pow(x, y, m); },
-                       undefined, a, b);
-    }
-    static I atan2(I const& a, I const& b, mask& undefined) noexcept {
-        return flagged([](part const& x, part const& y, M& m) { return simd::atan2(x, y, m); },
-                       undefined, a, b);
-    }
-    static I asinh(I const& a) noexcept {
-        return map([](part const& x) { return simd::asinh(x); }, a);
-    }
-    static I acosh(I const& a, mask& undefined) noexcept {
-        return flagged([](part const& x, M& m) { return simd::acosh(x, m); }, undefined, a);
-    }
-    static I atanh(I const& a, mask& undefined) noexcept {
-        return flagged([](part const& x, M& m) { return simd::atanh(x, m); }, undefined, a);
-    }
-
-    // Functions made of pieces: tight.
-    static I sign(I const& a) noexcept {
-        return map([](part const& x) { return simd::sign(x); }, a);
-    }
-    static I saturate(I const& a, I const& lo, I const& hi) noexcept {
-        return map(
-            [](part const& x, part const& y, part const& z) { return simd::saturate(x, y, z); }, a,
-            lo, hi);
-    }
-    static I deadband(I const& a, I const& half_width) noexcept {
-        return map([](part const& x, part const& y) { return simd::deadband(x, y); }, a,
-                   half_width);
-    }
+    static I sign(I const& a) noexcept { return map<simd::sign<V>>(a); }
 
 private:
     using scalar = interval_traits<interval>;
@@ -217,15 +132,18 @@ private:
     using M = typename V::mask;
     using part = typename I::part;
 
-    template <class Op, class... Packs>
-    static I map(Op const& op, Packs const&... packs) noexcept {
-        return I::make([&](std::size_t p) { return op(packs(p)...); });
+    static part const& piece(I const& a, std::size_t p) noexcept { return a(p); }
+    static int piece(int n, std::size_t) noexcept { return n; }
+
+    template <auto Op, class... X>
+    static I map(X const&... x) noexcept {
+        return I::make([&](std::size_t p) { return Op(piece(x, p)...); });
     }
-    template <class Op, class... Packs>
-    static I flagged(Op const& op, mask& undefined, Packs const&... packs) noexcept {
+    template <auto Op, class... X>
+    static I flagged(mask& undefined, X const&... x) noexcept {
         return I::make([&](std::size_t p) {
             M m{};
-            part const y = op(packs(p)..., m);
+            part const y = Op(piece(x, p)..., m);
             undefined |= mask{m.bits()} << (p * V::lanes);
             return y;
         });

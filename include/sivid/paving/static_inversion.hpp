@@ -62,7 +62,6 @@ public:
 
     [[nodiscard]] flat_paving operator()() {
         require_sound_environment();
-        require_pack_support();
         auto const begin = std::chrono::steady_clock::now();
         auto const seconds = [&] {
             return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

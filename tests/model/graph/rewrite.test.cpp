@@ -4,6 +4,10 @@
 #include "support/catch.hpp"
 #include "support/formulas.hpp"
 
+#include <cstddef>
+#include <optional>
+#include <vector>
+
 using namespace sivid;
 using support::draws;
 using support::encloses;
@@ -18,10 +22,7 @@ TEST_CASE("a copied graph has the values of the original") {
         if (!root) continue;
         graph to;
         (void)to.leaf(operation::input, 7); // node numbers differ
-        auto const same = [](node const& n, graph& h) {
-            return h.leaf(n.op, static_cast<std::size_t>(n.index));
-        };
-        auto const image = copy_into(to, from, {*root, *root}, same);
+        auto const image = copy_into(to, from, {*root, *root}, same_leaf{});
         REQUIRE(image.size() == 2);
         CHECK(image[0] == image[1]);
         auto const where = support::random_places(d, 0.3);
@@ -69,6 +70,21 @@ TEST_CASE("reachable nodes include companions and nothing idle") {
     CHECK(needed[g[s].companion]);
     CHECK(needed[x]);
     CHECK_FALSE(needed[idle]);
+}
+
+TEST_CASE("leaves of a kind are told by their numbers, once, and not below what is replaced") {
+    graph g;
+    auto const a = g.leaf(operation::constant, 3), b = g.leaf(operation::constant, 1);
+    auto const x = g.leaf(operation::state, 0);
+    (void)g.leaf(operation::constant, 2); // idle
+    auto const inner = g.unary(operation::exp, g.mul(b, x));
+    auto const root = g.add(g.mul(a, inner), g.mul(a, x));
+    using numbers = std::vector<std::size_t>;
+    CHECK(leaves_of(g, {root}, operation::constant) == numbers{3, 1});
+    CHECK(leaves_of(g, {root, inner}, operation::state) == numbers{0});
+    CHECK(leaves_of(g, {root}, operation::input).empty());
+    CHECK(leaves_of(g, {root}, operation::constant, {{inner, std::nullopt}}) == numbers{3});
+    CHECK(leaves_of(g, {inner}, operation::state, {{inner, x}}) == numbers{0});
 }
 
 TEST_CASE(

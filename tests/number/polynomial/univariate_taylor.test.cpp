@@ -5,6 +5,7 @@
 
 #include <sivid/number/polynomial/univariate_taylor.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -24,6 +25,13 @@ table const functions = {{univariate::exp, "exp"},   {univariate::log, "log"},
                          {univariate::sin, "sin"},   {univariate::cos, "cos"},
                          {univariate::tan, "tan"},   {univariate::atan, "atan"},
                          {univariate::tanh, "tanh"}, {univariate::sech_squared, "1 - tanh^2"}};
+
+template <std::size_t Order>
+std::array<interval, Order + 1> coefficients(univariate f, interval const& x, bool& undefined) {
+    std::array<interval, Order + 1> y;
+    taylor_coefficients(f, x, Order, y.data(), undefined);
+    return y;
+}
 
 /// \f$ f^{(k)}(x)/k! \f$, k = 0 .. order, each by a formula of its own (not a recurrence in k).
 std::vector<mp> exact_coefficients(univariate f, mp const& x) {
@@ -110,7 +118,7 @@ TEST_CASE("Taylor coefficients of elementary functions enclose the derivatives")
             for (int trial = 0; trial < 12; ++trial) {
                 auto const x = somewhere(d, f, radius);
                 bool undefined = false;
-                auto const y = taylor_coefficients<order>(f, x, undefined);
+                auto const y = coefficients<order>(f, x, undefined);
                 CAPTURE(radius, lower(x), upper(x));
                 REQUIRE_FALSE(undefined);
                 for (int sample = 0; sample < 3; ++sample) {
@@ -130,7 +138,7 @@ TEST_CASE("Taylor coefficients at a point are sharp") {
     for (auto const& [f, name] : functions) {
         INFO(name);
         bool undefined = false;
-        auto const y = taylor_coefficients<order>(f, interval(0.75), undefined);
+        auto const y = coefficients<order>(f, interval(0.75), undefined);
         auto const exact = exact_coefficients(f, mp(0.75));
         REQUIRE_FALSE(undefined);
         for (std::size_t k = 0; k <= order; ++k) {
@@ -143,7 +151,7 @@ TEST_CASE("Taylor coefficients at a point are sharp") {
 TEST_CASE("Taylor coefficients report where a function is not smooth") {
     auto const reports = [](univariate f, double lo, double hi) {
         bool undefined = false;
-        (void)taylor_coefficients<3>(f, interval_traits<interval>::bounds(lo, hi), undefined);
+        (void)coefficients<3>(f, interval_traits<interval>::bounds(lo, hi), undefined);
         return undefined;
     };
     REQUIRE(reports(univariate::log, 0.0, 1.0));
@@ -162,8 +170,8 @@ TEST_CASE("Taylor coefficients report where a function is not smooth") {
 TEST_CASE("order 0 is the function alone") {
     bool undefined = false;
     auto const all = interval_traits<interval>::entire();
-    REQUIRE(upper(taylor_coefficients<0>(univariate::sin, all, undefined)[0]) == 1.0);
-    REQUIRE(upper(taylor_coefficients<0>(univariate::tanh, all, undefined)[0]) == 1.0);
-    REQUIRE(upper(taylor_coefficients<0>(univariate::atan, all, undefined)[0]) < 1.5708);
+    REQUIRE(upper(coefficients<0>(univariate::sin, all, undefined)[0]) == 1.0);
+    REQUIRE(upper(coefficients<0>(univariate::tanh, all, undefined)[0]) == 1.0);
+    REQUIRE(upper(coefficients<0>(univariate::atan, all, undefined)[0]) < 1.5708);
     REQUIRE_FALSE(undefined);
 }

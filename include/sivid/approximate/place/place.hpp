@@ -65,11 +65,7 @@ struct place {
             }
         };
         add(i);
-        auto const used = reachable(model.g, {model.rate[i]});
-        for (std::size_t k = 0; k < used.size(); ++k) {
-            auto const& n = model.g.nodes()[k];
-            if (used[k] && n.op == operation::state) add(static_cast<std::size_t>(n.index));
-        }
+        for (auto const k : leaves_of(model.g, {model.rate[i]}, operation::state)) add(k);
         return names;
     };
     for (std::size_t i = 0; i < model.rate.size(); ++i) {

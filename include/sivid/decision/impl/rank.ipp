@@ -37,15 +37,12 @@ namespace decision_detail {
         std::vector<bool> state(m.rate.size(), false);
         constant[index_of(m.about.constants, name, "constant")] = true;
         auto const reaches = [&](node_id output) {
-            auto const needed = operands_of(m.g, {output});
-            for (std::size_t k = 0; k < needed.size(); ++k) {
-                auto const& n = m.g.nodes()[k];
-                auto const index = static_cast<std::size_t>(n.index);
-                if (!needed[k]) continue;
-                if (n.op == operation::constant && constant[index]) return true;
-                if (n.op == operation::state && state[index]) return true;
-            }
-            return false;
+            auto const among = [&](operation kind, std::vector<bool> const& marked) {
+                auto const leaves = leaves_of(m.g, {output}, kind);
+                return std::any_of(leaves.begin(), leaves.end(),
+                                   [&](std::size_t k) { return marked[k]; });
+            };
+            return among(operation::constant, constant) || among(operation::state, state);
         };
         for (auto const& d : follows)
             constant[d.constant] = constant[d.constant] || reaches(d.value);

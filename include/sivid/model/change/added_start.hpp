@@ -45,12 +45,8 @@ namespace sivid {
                                        box const& states, std::vector<interval> const& constants,
                                        std::vector<signal> const& inputs) {
     leaf_ranges at{interval(time), states, box(constants), box(inputs.size())};
-    auto const seen = operands_of(model.g, {node});
-    for (std::size_t k = 0; k < seen.size(); ++k) {
-        auto const& n = model.g.nodes()[k];
-        auto const i = static_cast<std::size_t>(n.index);
-        if (seen[k] && n.op == operation::input) at.inputs[i] = input_at(inputs[i], time);
-    }
+    for (auto const i : leaves_of(model.g, {node}, operation::input))
+        at.inputs[i] = input_at(inputs[i], time);
     graph_range range(model.g, {node});
     range.evaluate(at);
     return range.undefined(node) ? interval_traits<interval>::entire() : range.value(node);

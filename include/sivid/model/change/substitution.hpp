@@ -68,17 +68,9 @@ substituted(recorded_model const& model, std::vector<std::string> const& replace
     for (auto const& d : model.derived) {
         if (position[d.constant] >= constants.size()) continue; // replaced itself
         auto const value = copy_into(g, model.g, {d.value}, leaf).front();
-        auto const needed = operands_of(model.g, {d.value});
-        auto const follows_replaced = std::any_of(gone.begin(), gone.end(), [&](std::size_t k) {
-            for (std::size_t i = 0; i < needed.size(); ++i) {
-                auto const& n = model.g.nodes()[i];
-                if (needed[i] && n.op == operation::constant &&
-                    static_cast<std::size_t>(n.index) == k) {
-                    return true;
-                }
-            }
-            return false;
-        });
+        auto const of = leaves_of(model.g, {d.value}, operation::constant);
+        bool const follows_replaced =
+            std::find_first_of(of.begin(), of.end(), gone.begin(), gone.end()) != of.end();
         result.derived.push_back({position[d.constant], value, d.always || follows_replaced});
     }
     auto const moved = [&](std::vector<signal_memory> delays) {

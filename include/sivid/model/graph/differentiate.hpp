@@ -3,6 +3,7 @@
 #define SIVID_MODEL_GRAPH_DIFFERENTIATE_HPP
 
 #include <sivid/model/graph/graph.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -75,14 +76,7 @@ inline node_id derivative_rule(graph& g, node_id i, node_id da, node_id db) {
 [[nodiscard]] inline std::vector<std::vector<node_id>>
 differentiate(graph& g, std::vector<node_id> const& outputs, std::vector<node_id> const& wrt) {
     auto const size = g.size();
-    std::vector<bool> needed(size, false);
-    for (auto const i : outputs) needed[i] = true;
-    for (std::size_t k = size; k-- > 0;) {
-        auto const& n = g.nodes()[k];
-        if (!needed[k] || is_leaf(n.op)) continue;
-        needed[n.a] = true;
-        if (is_binary(n.op)) needed[n.b] = true;
-    }
+    auto const needed = operands_of(g, outputs);
     std::vector<std::vector<node_id>> result(outputs.size());
     auto const zero = g.constant(0.0);
     for (auto const variable : wrt) {

@@ -54,6 +54,29 @@ operands_of(graph const& g, std::vector<node_id> const& outputs, stand_ins const
     return needed;
 }
 
+/// The numbers of the leaves of one kind from which the outputs are computed, each once.
+/// @param kind  `constant`, `state` or `input`
+/// @cost  O(size of `g`)
+[[nodiscard]] inline std::vector<std::size_t> leaves_of(graph const& g,
+                                                        std::vector<node_id> const& outputs,
+                                                        operation kind,
+                                                        stand_ins const& instead = {}) {
+    auto const needed = operands_of(g, outputs, instead);
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < g.size(); ++k) {
+        auto const& n = g.nodes()[k];
+        if (needed[k] && n.op == kind) result.push_back(static_cast<std::size_t>(n.index));
+    }
+    return result;
+}
+
+/// A leaf as it is.
+struct same_leaf {
+    [[nodiscard]] node_id operator()(node const& n, graph& to) const {
+        return to.leaf(n.op, static_cast<std::size_t>(n.index));
+    }
+};
+
 /// An operation as it is, on other operands.
 struct same_operation {
     [[nodiscard]] node_id operator()(node const& n, node_id a, node_id b, graph& to) const {

@@ -157,7 +157,7 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
         if (n.op == operation::constant) return scope.constants_[k].in(to);
         if (n.op == operation::input) return scope.inputs_[k].in(to);
         if (n.op == operation::time) return scope.time_.in(to);
-        return to.leaf(n.op, k);
+        return same_leaf{}(n, to);
     });
     for (std::size_t i = 0; i < base.rate.size(); ++i)
         scope.rates_[i] = expression(g, result.rate[i]);
@@ -165,12 +165,9 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     result.added_states.insert(result.added_states.begin(), own.begin(), own.end());
     // Relations between constants stay as they are: an effect that alters D alters what the
     // equations see of D, and A = pi D^2/4 only if it says so.
-    auto const itself = [](node const& n, graph& to) {
-        return to.leaf(n.op, static_cast<std::size_t>(n.index));
-    };
     for (auto const& d : base.derived)
         result.derived.push_back(
-            {d.constant, copy_into(g, base.g, {d.value}, itself).front(), d.always});
+            {d.constant, copy_into(g, base.g, {d.value}, same_leaf{}).front(), d.always});
     auto const copied = result.rate;
     apply_all(&effect::on_rates);
     apply_all(&effect::on_channels);

@@ -102,7 +102,7 @@ SIVID_DECL std::vector<std::size_t> effect_scope::with_copies(std::size_t input)
     return all;
 }
 
-SIVID_DECL void effect_scope::remember(std::string const& input, std::size_t k, memory_kind kind) {
+SIVID_DECL void effect_scope::remember(std::string const& input, memory_kind kind, std::size_t k) {
     auto const of = index_of(model_->about.inputs, input, "input");
     auto const constant = first_parameter_ + k;
     if (!effect_->changes_within()) {
@@ -134,34 +134,13 @@ SIVID_DECL void effect_scope::remember(std::string const& input, std::size_t k, 
     seen = expression(model_->g, image.front());
 }
 
-SIVID_DECL void effect_scope::delay_input(std::string const& name, std::size_t k) {
-    remember(name, k, memory_kind::delay);
-}
-
-SIVID_DECL void effect_scope::play_input(std::string const& name, std::size_t k) {
-    remember(name, k, memory_kind::play);
-}
-
-SIVID_DECL void effect_scope::limit_input_rate(std::string const& name, std::size_t k) {
-    remember(name, k, memory_kind::rate_limit);
-}
-
-SIVID_DECL void effect_scope::slow_input_clock(std::string const& name, std::size_t k) {
-    remember(name, k, memory_kind::drift);
-}
-
-SIVID_DECL void effect_scope::show_late(std::string const& channel, std::size_t k,
-                                        memory_kind kind) {
+SIVID_DECL void effect_scope::show_late(std::string const& channel, memory_kind kind,
+                                        std::size_t k) {
+    if (!is_dead_time(kind))
+        throw std::invalid_argument("effect '" + effect_->name + "': the channel '" + channel +
+                                    "' can be late, and have no play and no rate limit");
     model_->channel_delays.push_back({index_of(model_->about.channels, channel, "channel"),
                                       first_parameter_ + k, kind, switch_of_effect()});
-}
-
-SIVID_DECL void effect_scope::delay_channel(std::string const& name, std::size_t k) {
-    show_late(name, k, memory_kind::delay);
-}
-
-SIVID_DECL void effect_scope::slow_channel_clock(std::string const& name, std::size_t k) {
-    show_late(name, k, memory_kind::drift);
 }
 
 SIVID_DECL void effect_scope::lag_channel(std::string const& name, std::size_t k) {

@@ -37,14 +37,14 @@ inline std::string all_of(std::vector<std::string> const& channels) {
 
 SIVID_DECL effect input_delay(std::string const& name, std::string const& input, range const& tau) {
     auto e = detail::one(name, "tau", "s", tau, "pure delay of the input " + input, 0);
-    e.on_inputs = [input](effect_scope& m) { m.delay_input(input); };
+    e.on_inputs = [input](effect_scope& m) { m.remember(input, memory_kind::delay); };
     return e;
 }
 
 SIVID_DECL effect input_clock_drift(std::string const& name, std::string const& input,
                                     range const& r) {
     auto e = detail::one(name, "r", "s/s", r, "clock of the input " + input + " that runs slow", 0);
-    e.on_inputs = [input](effect_scope& m) { m.slow_input_clock(input); };
+    e.on_inputs = [input](effect_scope& m) { m.remember(input, memory_kind::drift); };
     return e;
 }
 
@@ -61,7 +61,7 @@ SIVID_DECL effect input_dead_band(std::string const& name, std::string const& in
 SIVID_DECL effect input_backlash(std::string const& name, std::string const& input,
                                  std::string const& unit, range const& b) {
     auto e = detail::one(name, "b", unit, b, "backlash behind the input " + input, 0);
-    e.on_inputs = [input](effect_scope& m) { m.play_input(input); };
+    e.on_inputs = [input](effect_scope& m) { m.remember(input, memory_kind::play); };
     return e;
 }
 
@@ -70,7 +70,7 @@ SIVID_DECL effect input_rate_limit(std::string const& name, std::string const& i
     if (!(nearest(R.lower) > 0))
         throw std::invalid_argument("input_rate_limit '" + name + "': the prior of R is above 0");
     auto e = detail::one(name, "R", unit, R, "rate limit of the input " + input, 0, R.upper);
-    e.on_inputs = [input](effect_scope& m) { m.limit_input_rate(input); };
+    e.on_inputs = [input](effect_scope& m) { m.remember(input, memory_kind::rate_limit); };
     return e;
 }
 
@@ -306,7 +306,7 @@ SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::strin
     auto e =
         detail::one(name, "tau", "s", tau, "latency of the sensor " + detail::all_of(channels));
     e.on_channels = [channels](effect_scope& m) {
-        for (auto const& y : channels) m.delay_channel(y);
+        for (auto const& y : channels) m.show_late(y, memory_kind::delay);
     };
     return e;
 }
@@ -316,7 +316,7 @@ SIVID_DECL effect sensor_clock_drift(std::string const& name,
     auto e = detail::one(name, "r", "s/s", r,
                          "clock of the sensor " + detail::all_of(channels) + " that runs slow");
     e.on_channels = [channels](effect_scope& m) {
-        for (auto const& y : channels) m.slow_channel_clock(y);
+        for (auto const& y : channels) m.show_late(y, memory_kind::drift);
     };
     return e;
 }

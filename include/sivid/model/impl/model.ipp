@@ -4,6 +4,7 @@
 
 #include <sivid/model/model.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -64,14 +65,10 @@ SIVID_DECL void model_detail::add_derived(recorded_model& model, std::string_vie
     if ((model.g.depends(d.value) & ~on_constant) != 0) fail("depends on more than constants");
     for (auto const& other : model.derived) {
         if (other.constant == d.constant) fail("stands twice");
-        auto const earlier = operands_of(model.g, {other.value});
-        for (std::size_t i = 0; i < earlier.size(); ++i) {
-            auto const& n = model.g.nodes()[i];
-            if (earlier[i] && n.op == operation::constant &&
-                static_cast<std::size_t>(n.index) == d.constant) {
-                fail("stands in the formula of '" + constants[other.constant].name +
-                     "', which comes before it");
-            }
+        auto const earlier = leaves_of(model.g, {other.value}, operation::constant);
+        if (std::find(earlier.begin(), earlier.end(), d.constant) != earlier.end()) {
+            fail("stands in the formula of '" + constants[other.constant].name +
+                 "', which comes before it");
         }
     }
     std::vector<std::string> names;

@@ -211,10 +211,9 @@ private:
         auto const result = sivid::apply(f, a, undefined);
         if (!side_by_side::any(undefined)) return result;
         auto never = false;
-        return sivid::select(
-            undefined,
-            enclose(taylor_coefficients<0>(f, interval_traits<interval>::entire(), never)[0]),
-            result);
+        interval range;
+        taylor_coefficients(f, interval_traits<interval>::entire(), 0, &range, never);
+        return sivid::select(undefined, enclose(range), result);
     }
 };
 

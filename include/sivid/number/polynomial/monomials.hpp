@@ -24,9 +24,6 @@ struct monomial_builder {
     /// Pairs (i, j) whose product has degree at most D.
     static constexpr std::size_t products = binomial(2 * N + D, D);
 
-    struct product {
-        std::uint16_t left, right, result;
-    };
     struct factors {
         std::uint16_t left, right;
     };
@@ -40,8 +37,6 @@ struct monomial_builder {
         std::array<factors, products> pairs{};
         /// Most products that add up in one coefficient.
         std::size_t longest_sum = 0;
-        /// Index of each variable alone (degree 1); meaningless when D is 0.
-        std::array<std::size_t, N> variable{};
     };
 
     static constexpr table make() {
@@ -69,61 +64,28 @@ struct monomial_builder {
             }
         }
         t.first[D + 1] = next;
-        auto const before = vectors_before();
-        std::array<product, products> triples{};
-        std::array<std::size_t, count> lengths{};
-        std::size_t k = 0;
+        // Exponents as digits of one number: products within the degree are sums without carries.
+        std::array<std::uint64_t, count> codes{};
         for (std::size_t i = 0; i < count; ++i) {
-            for (std::size_t j = 0; j < t.first[D - t.degree[i] + 1]; ++j) {
-                auto const m = find(t, before, i, j);
-                triples[k++] = {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j),
-                                static_cast<std::uint16_t>(m)};
-                ++lengths[m];
-            }
+            for (auto const digit : t.exponents[i]) codes[i] = codes[i] * (D + 1) + digit;
         }
+        auto const* const code = codes.data(); // fewer steps of the compiler
+        std::size_t k = 0;
         for (std::size_t m = 0; m < count; ++m) {
-            t.sum[m + 1] = t.sum[m] + lengths[m];
-            t.longest_sum = lengths[m] > t.longest_sum ? lengths[m] : t.longest_sum;
-        }
-        auto place = t.sum;
-        for (auto const& x : triples) t.pairs[place[x.result]++] = {x.left, x.right};
-        if constexpr (D > 0) {
-            for (std::size_t i = t.first[1]; i < t.first[2]; ++i) {
-                for (std::size_t v = 0; v < N; ++v) {
-                    if (t.exponents[i][v] == 1) t.variable[v] = i;
-                }
+            for (std::size_t i = 0; i < t.first[t.degree[m] + 1]; ++i) {
+                std::uint64_t const wanted = code[m] - code[i];
+                std::size_t const rest = static_cast<std::size_t>(t.degree[m]) - t.degree[i];
+                std::size_t j = t.first[rest];
+                std::size_t const last = t.first[rest + 1];
+                while (j < last && code[j] != wanted) ++j;
+                if (j < last)
+                    t.pairs[k++] = {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)};
             }
+            t.sum[m + 1] = k;
+            std::size_t const length = k - t.sum[m];
+            t.longest_sum = length > t.longest_sum ? length : t.longest_sum;
         }
         return t;
-    }
-
-private:
-    /// [v][rest][e]: of the exponent vectors with a given head, so many with `rest` to share among
-    /// v and the variables behind it, and more than e at v. They stand before.
-    using ranks = std::array<std::array<std::array<std::size_t, D + 1>, D + 1>, N>;
-    static constexpr ranks vectors_before() {
-        ranks before{};
-        for (std::size_t v = 0; v + 1 < N; ++v) {
-            for (std::size_t rest = 0; rest <= D; ++rest) {
-                for (std::size_t e = rest; e-- > 0;) {
-                    before[v][rest][e] =
-                        before[v][rest][e + 1] + binomial(rest - e - 1 + N - v - 2, N - v - 2);
-                }
-            }
-        }
-        return before;
-    }
-    /// Index of the product of monomials i and j: the rank of its exponents within its degree.
-    static constexpr std::size_t find(table const& t, ranks const& before, std::size_t i,
-                                      std::size_t j) {
-        std::size_t rest = static_cast<std::size_t>(t.degree[i]) + t.degree[j];
-        std::size_t rank = t.first[rest];
-        for (std::size_t v = 0; v + 1 < N; ++v) {
-            std::size_t const e = static_cast<std::size_t>(t.exponents[i][v]) + t.exponents[j][v];
-            rank += before[v][rest][e];
-            rest -= e;
-        }
-        return rank;
     }
 };
 

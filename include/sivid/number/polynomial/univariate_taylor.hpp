@@ -5,20 +5,9 @@
 #include <sivid/number/elementary.hpp>
 #include <sivid/number/interval_traits.hpp>
 
-#include <array>
 #include <cstddef>
 
 namespace sivid {
-
-namespace number_detail {
-/// Not less than 1/N!.
-template <std::size_t N>
-inline constexpr double inverse_factorial = [] {
-    double product = 1;
-    for (std::size_t k = 2; k <= N; ++k) product *= static_cast<double>(k); // exact to 22!
-    return 1 / product * (1 + static_cast<double>(N + 2) * 0x1p-52);
-}();
-} // namespace number_detail
 
 /// Functions of one variable whose Taylor coefficients are known here.
 enum class univariate { exp, log, sin, cos, tan, atan, tanh, sech_squared };
@@ -90,15 +79,6 @@ inline void taylor_coefficients(univariate f, interval const& x, std::size_t ord
         break;
     }
     }
-}
-
-/// The same for an order that is known beforehand.
-template <std::size_t Order>
-[[nodiscard]] std::array<interval, Order + 1> taylor_coefficients(univariate f, interval const& x,
-                                                                  bool& undefined) {
-    std::array<interval, Order + 1> y;
-    taylor_coefficients(f, x, Order, y.data(), undefined);
-    return y;
 }
 
 } // namespace sivid

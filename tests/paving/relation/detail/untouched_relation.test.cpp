@@ -91,13 +91,13 @@ TEST_CASE("an effect keeps the relations that it does not act in") {
 
 TEST_CASE("a channel that is late is another one, a delay of the model itself is left alone") {
     effect seen_late{"seen late", {{"tau", "s", 0_dec, 1_dec, 0_dec}}};
-    seen_late.on_channels = [](effect_scope& h) { h.delay_channel("v"); };
+    seen_late.on_channels = [](effect_scope& h) { h.show_late("v", memory_kind::delay); };
     for (auto const& e : {seen_late, only_within(seen_late, {"E1"})}) {
         CHECK_FALSE(keeps({e}, kinematic()));
         CHECK_FALSE(keeps({e}, dynamic()));
     }
     effect other_late{"other late", {{"tau", "s", 0_dec, 1_dec, 0_dec}}};
-    other_late.on_channels = [](effect_scope& h) { h.delay_channel("p"); };
+    other_late.on_channels = [](effect_scope& h) { h.show_late("p", memory_kind::delay); };
     CHECK(keeps({other_late}, dynamic()));
     auto const delayed = with(record_model(small_campaign::cart{}), {seen_late});
     CHECK_FALSE(keeps_relation(delayed, delayed, kinematic()));

@@ -113,7 +113,7 @@ private:
             auto const k = static_cast<std::size_t>(n.index);
             if (n.op == operation::state && still_[k]) return g.constant(0.0);
             if (n.op == operation::input && held_[k]) return g.constant(*held_[k]);
-            return g.leaf(n.op, k);
+            return same_leaf{}(n, g);
         };
         auto const make = [&](node const& n, node_id a, node_id b, graph& g) -> node_id {
             auto const own = static_cast<std::size_t>(&n - from.g.nodes().data());
@@ -162,12 +162,7 @@ private:
         // Derived constants depend on those of their formulas.
         std::vector<bool> used(m.about.constants.size(), false);
         auto const mark = [&](std::vector<node_id> const& of) {
-            auto const needed = operands_of(m.g, of);
-            for (std::size_t k = 0; k < m.g.size(); ++k) {
-                auto const& n = m.g.nodes()[k];
-                if (needed[k] && n.op == operation::constant)
-                    used[static_cast<std::size_t>(n.index)] = true;
-            }
+            for (auto const k : leaves_of(m.g, of, operation::constant)) used[k] = true;
         };
         mark(outputs);
         for (auto d = follows.rbegin(); d != follows.rend(); ++d) {

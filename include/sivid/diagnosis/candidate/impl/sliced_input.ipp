@@ -188,14 +188,8 @@ private:
         for (auto const& a : without.added_states) other.push_back(a.at_begin);
         for (std::size_t i = 0; i < read.size(); ++i)
             if (!same(read[i], other[i])) return false;
-        auto const used = operands_of(own.g, read);
-        for (std::size_t i = 0; i < used.size(); ++i) {
-            auto const& n = own.g.nodes()[i];
-            if (used[i] && n.op == operation::constant &&
-                static_cast<std::size_t>(n.index) == constant)
-                return false;
-        }
-        return true;
+        auto const used = leaves_of(own.g, read, operation::constant);
+        return std::find(used.begin(), used.end(), constant) == used.end();
     }
     /// The effect that is nothing but this memory, with one parameter.
     [[nodiscard]] std::optional<input_change> change_by(signal_memory const& m) const {

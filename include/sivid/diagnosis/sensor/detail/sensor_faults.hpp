@@ -135,9 +135,6 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
         auto const share = unknown("sensor share " + model.about.states[m].name, range);
         state = g.add(state, g.mul(share, g.leaf(operation::state, m)));
     }
-    auto const plain = [](node const& n, graph& to) {
-        return to.leaf(n.op, static_cast<std::size_t>(n.index));
-    };
     // In other channels, too: one that shows the same state is right.
     auto const corrected = [&](node const& n, graph& to) {
         auto const k = static_cast<std::size_t>(n.index);
@@ -148,9 +145,10 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
     model.observe = copy_into(g, source.model.g, source.model.observe, corrected);
     model.observe[f.channel] = shown;
     for (auto& a : model.added_states) {
-        a.at_begin = copy_into(g, source.model.g, {a.at_begin}, plain).front();
+        a.at_begin = copy_into(g, source.model.g, {a.at_begin}, same_leaf{}).front();
     }
-    for (auto& d : model.derived) d.value = copy_into(g, source.model.g, {d.value}, plain).front();
+    for (auto& d : model.derived)
+        d.value = copy_into(g, source.model.g, {d.value}, same_leaf{}).front();
     model.g = std::move(g);
     problem.prior = box(sides.size());
     for (std::size_t j = 0; j < sides.size(); ++j) problem.prior[j] = sides[j];

@@ -81,7 +81,7 @@ inline std::optional<driven_model> driven_by(recorded_model const& model,
         if (n.op == operation::literal) {
             image[k] = result.g.constant(from.value(n));
         } else if (is_leaf(n.op)) {
-            image[k] = result.g.leaf(n.op, static_cast<std::size_t>(n.index));
+            image[k] = same_leaf{}(n, result.g);
         } else {
             auto const a = of(n.a);
             image[k] = same_operation()(n, a, is_binary(n.op) ? of(n.b) : a, result.g);
@@ -112,9 +112,8 @@ inline std::optional<integrated_model> in_integrals(recorded_model const& model,
     };
     auto seen_later = d.observe; // what sees inputs without an integral
     seen_later.insert(seen_later.end(), d.at_begin.begin(), d.at_begin.end());
-    auto const later = operands_of(g, seen_later);
-    for (std::size_t k = 0; k < g.size(); ++k) {
-        if (later[k] && is_function(g.nodes()[k])) return std::nullopt;
+    for (auto const i : leaves_of(g, seen_later, operation::input)) {
+        if (i >= inputs) return std::nullopt;
     }
     // A derivative does not tell affine from affine on either side of a kink, nor from constant on
     // either side of a jump.
@@ -158,7 +157,7 @@ inline std::optional<integrated_model> in_integrals(recorded_model const& model,
     }
     graph h;
     auto const none = [&](node const& n, graph& to) {
-        return is_function(n) ? to.constant(0.0) : to.leaf(n.op, static_cast<std::size_t>(n.index));
+        return is_function(n) ? to.constant(0.0) : same_leaf{}(n, to);
     };
     auto const rest = copy_into(h, g, d.rate, none);
     gains = copy_into(h, g, gains, none);

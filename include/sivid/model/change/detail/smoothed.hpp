@@ -65,18 +65,16 @@ struct smoothed_model {
     };
     auto outputs = model.rate;
     outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
-    auto const same_leaf = [](node const& n, graph& to) {
-        return to.leaf(n.op, static_cast<std::size_t>(n.index));
-    };
-    auto const images = copy_into(made.g, model.g, outputs, same_leaf, make);
+    auto const images = copy_into(made.g, model.g, outputs, same_leaf{}, make);
     auto image = images.begin();
     for (auto* list : {&made.rate, &made.observe}) {
         for (auto& node : *list) node = *image++;
     }
     for (auto& a : made.added_states) {
-        a.at_begin = copy_into(made.g, model.g, {a.at_begin}, same_leaf).front();
+        a.at_begin = copy_into(made.g, model.g, {a.at_begin}, same_leaf{}).front();
     }
-    for (auto& d : made.derived) d.value = copy_into(made.g, model.g, {d.value}, same_leaf).front();
+    for (auto& d : made.derived)
+        d.value = copy_into(made.g, model.g, {d.value}, same_leaf{}).front();
     return result;
 }
 

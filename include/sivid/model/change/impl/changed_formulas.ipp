@@ -128,7 +128,7 @@ private:
     }
     void channels() {
         auto& g = after_.g;
-        auto const old = copy_into(g, before_.g, before_.observe, same_leaf);
+        auto const old = copy_into(g, before_.g, before_.observe, same_leaf{});
         auto const names = names_of_changed();
         for (std::size_t y = 0; y < base_->observe.size(); ++y) {
             if (after_.observe[y] != old[y])
@@ -163,7 +163,7 @@ private:
         auto const& about = base_->about;
         std::vector<node_id> const seen(
             seen_.rate.begin() + static_cast<std::ptrdiff_t>(first_seen()), seen_.rate.end());
-        auto const now = copy_into(after_.g, seen_.g, seen, same_leaf);
+        auto const now = copy_into(after_.g, seen_.g, seen, same_leaf{});
         auto const name = [&](std::size_t k, std::string const& as) {
             if (!is_leaf(after_.g[now[k]].op)) names.nodes[now[k]] = as;
         };
@@ -178,7 +178,7 @@ private:
         std::vector<node_id> rates(before_.rate.begin(),
                                    before_.rate.begin() +
                                        static_cast<std::ptrdiff_t>(base_->rate.size()));
-        return copy_into(after_.g, before_.g, rates, same_leaf);
+        return copy_into(after_.g, before_.g, rates, same_leaf{});
     }
     [[nodiscard]] std::string rate_name(std::size_t i) const {
         return base_->about.states[i].name + "'";
@@ -196,9 +196,6 @@ private:
         for (auto const& x : m.about.states) names.states.push_back(short_name(x.name));
         for (auto const& u : m.about.inputs) names.inputs.push_back(short_name(u.name));
         return names;
-    }
-    static node_id same_leaf(node const& n, graph& g) {
-        return g.leaf(n.op, static_cast<std::size_t>(n.index));
     }
 
     recorded_model const* base_;

@@ -178,29 +178,6 @@ template <class V>
     return {of(lo), of(hi)};
 }
 
-/// \f$ \{\min(\max(t, l), h)\} \f$
-template <class V>
-[[nodiscard]] bounds<V> saturate(bounds<V> const& a, bounds<V> const& lo,
-                                 bounds<V> const& hi) noexcept {
-    return min(max(a, lo), hi);
-}
-
-/// \f$ \{\max(t - w, 0) + \min(t + w, 0)\} \f$ over widths w >= 0: increasing in t, nearer to zero
-/// the wider the band.
-template <class V>
-[[nodiscard]] bounds<V> deadband(bounds<V> const& a, bounds<V> const& half_width) noexcept {
-    using d = directed<V>;
-    V const zero(0.0);
-    V const least = max(zero, half_width.lo), most = half_width.hi;
-    auto const clipped = [&](V t, V positive, V negative) { // NaN from inf - inf becomes 0
-        return select(t > zero, max(positive, zero), min(negative, zero));
-    };
-    V const lo = a.lo, hi = a.hi;
-    bounds<V> const y{clipped(lo, d::sub_down(lo, most), d::add_down(lo, least)),
-                      clipped(hi, d::sub_up(hi, least), d::add_up(hi, most))};
-    return empty_where(either_empty(a, half_width) | (most < zero), y);
-}
-
 /// \f$ \{t^n\} \f$, by squaring; at most 2 log2(n) roundings a side.
 template <class V>
 [[nodiscard]] bounds<V> pown(bounds<V> const& a, int n, mask_of<V>& undefined) noexcept {
@@ -235,30 +212,6 @@ template <class V>
     undefined = undefined | has_zero;
     auto ignored = has_zero; // a power that underflows to zero is not one
     return div(bounds<V>{one, one}, y, ignored);
-}
-
-/// \f$ \{\sqrt{s^2 + t^2}\} \f$; at most 2 floats a side, scaled by a power of two in each lane
-/// where squares would over- or underflow.
-template <class V>
-[[nodiscard]] bounds<V> hypot(bounds<V> const& a, bounds<V> const& b) noexcept {
-    using d = directed<V>;
-    V const one(1.0);
-    auto const scale_of = [&](V big) {
-        return select(big > V(0x1p500), V(0x1p-600), select(big < V(0x1p-400), V(0x1p600), one));
-    };
-    auto const inverse_of = [&](V big) {
-        return select(big > V(0x1p500), V(0x1p600), select(big < V(0x1p-400), V(0x1p-600), one));
-    };
-    V const low_a = mig(a), low_b = mig(b), high_a = mag(a), high_b = mag(b);
-    V const low = max(low_a, low_b), high = max(high_a, high_b);
-    V const p = d::mul_down(low_a, scale_of(low)), q = d::mul_down(low_b, scale_of(low));
-    V const r = d::mul_up(high_a, scale_of(high)), s = d::mul_up(high_b, scale_of(high));
-    V const lo = d::sqrt_down(d::add_down(d::mul_down(p, p), d::mul_down(q, q)));
-    V const hi = d::sqrt_up(d::add_up(d::mul_up(r, r), d::mul_up(s, s)));
-    // A zero term leaves the other one exact; never below the larger.
-    return empty_where(either_empty(a, b), bounds<V>{max(low, d::mul_down(lo, inverse_of(low))),
-                                                     select(min(high_a, high_b) == V(0.0), high,
-                                                            d::mul_up(hi, inverse_of(high)))});
 }
 
 } // namespace SIVID_PACK_TARGET

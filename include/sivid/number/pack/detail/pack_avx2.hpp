@@ -79,11 +79,6 @@ public:
     friend vector_avx2 abs(vector_avx2 a) noexcept {
         return vector_avx2{_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v_)};
     }
-    /// |a| with the sign bit of b.
-    friend vector_avx2 copysign(vector_avx2 a, vector_avx2 b) noexcept {
-        auto const sign = _mm256_set1_pd(-0.0);
-        return vector_avx2{_mm256_or_pd(_mm256_andnot_pd(sign, a.v_), _mm256_and_pd(sign, b.v_))};
-    }
     /// The second operand where one of them is NaN.
     friend vector_avx2 min(vector_avx2 a, vector_avx2 b) noexcept {
         return vector_avx2{_mm256_min_pd(a.v_, b.v_)};

@@ -85,11 +85,6 @@ public:
     friend vector_avx512 abs(vector_avx512 a) noexcept {
         return vector_avx512{_mm512_andnot_pd(_mm512_set1_pd(-0.0), a.v_)};
     }
-    /// |a| with the sign bit of b.
-    friend vector_avx512 copysign(vector_avx512 a, vector_avx512 b) noexcept {
-        auto const sign = _mm512_set1_pd(-0.0);
-        return vector_avx512{_mm512_or_pd(_mm512_andnot_pd(sign, a.v_), _mm512_and_pd(sign, b.v_))};
-    }
     /// The second operand where one of them is NaN.
     friend vector_avx512 min(vector_avx512 a, vector_avx512 b) noexcept {
         return vector_avx512{_mm512_maskz_min_round_pd(all_lanes(), a.v_, b.v_, _MM_FROUND_NO_EXC)};

@@ -4,8 +4,8 @@
 
 /// @file
 /// Elementary functions of vectors of intervals: kernels at the ends, domains cut, empty lanes
-/// kept. Lanes that a kernel does not serve (|x| > 2^20 of sin, cos, tan), and pow, atan2 and the
-/// inverse hyperbolic functions, go one by one through the vocabulary type, with its excess.
+/// kept. Lanes that a kernel does not serve (|x| > 2^20 of sin, cos, tan) go one by one through the
+/// vocabulary type, with its excess.
 
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/pack/detail/pack_arctangent.hpp>
@@ -18,40 +18,25 @@
 namespace sivid::simd {
 inline namespace SIVID_PACK_TARGET {
 
-template <class V>
-[[nodiscard]] interval lane_of(std::array<double, V::lanes> const& lo,
-                               std::array<double, V::lanes> const& hi, std::size_t i) noexcept {
-    return interval_traits<interval>::bounds(lo[i], hi[i]);
-}
-
-/// y with f(x...) in the lanes of `which`; f sets its last argument where it is not defined.
-template <class V, class F, class... X>
-[[nodiscard]] bounds<V> replace_lanes(bounds<V> const& y, unsigned which, mask_of<V>& undefined,
-                                      F const& f, X... x) noexcept {
-    std::array<double, V::lanes> lo, hi, flag{};
+/// y with f(x) in the lanes of `which`; f sets its last argument where it is not defined.
+template <class V, class F>
+[[nodiscard]] bounds<V> replace_lanes(bounds<V> const& y, unsigned which, bounds<V> const& x,
+                                      mask_of<V>& undefined, F const& f) noexcept {
+    std::array<double, V::lanes> lo, hi, flag{}, from, to;
     y.lo.store(lo.data());
     y.hi.store(hi.data());
-    std::array<std::array<std::array<double, V::lanes>, 2>, sizeof...(X)> in;
-    std::size_t n = 0;
-    ((x.lo.store(in[n][0].data()), x.hi.store(in[n][1].data()), ++n), ...);
+    x.lo.store(from.data());
+    x.hi.store(to.data());
     for (std::size_t i = 0; i < V::lanes; ++i) {
         if ((which >> i & 1u) == 0) continue;
         bool cut = false;
-        interval z;
-        if constexpr (sizeof...(X) == 1)
-            z = f(lane_of<V>(in[0][0], in[0][1], i), cut);
-        else
-            z = f(lane_of<V>(in[0][0], in[0][1], i), lane_of<V>(in[1][0], in[1][1], i), cut);
+        interval const z = f(interval_traits<interval>::bounds(from[i], to[i]), cut);
         lo[i] = z.lower();
         hi[i] = z.upper();
         flag[i] = cut ? 1.0 : 0.0;
     }
     undefined = undefined | (V::load(flag.data()) > V(0.0));
     return {V::load(lo.data()), V::load(hi.data())};
-}
-template <class V, class F, class... X>
-[[nodiscard]] bounds<V> lane_by_lane(mask_of<V>& undefined, F const& f, X... x) noexcept {
-    return replace_lanes(constant<V>(0.0, 0.0), ~0u, undefined, f, x...);
 }
 
 /// The same numbers, in registers: a kernel's operations stay between here and there, whatever the
@@ -89,7 +74,7 @@ template <class V, class Kernel, class F>
 [[nodiscard]] bounds<V> evaluate(bounds<V> const& x, mask_of<V>& undefined, Kernel const& kernel,
                                  F const& f) noexcept {
     if (!kernels_hold<V>()) [[unlikely]]
-        return lane_by_lane<V>(undefined, f, x);
+        return replace_lanes(constant<V>(0.0, 0.0), ~0u, x, undefined, f);
     bounds<V> const t = in_registers(x);
     return in_registers(kernel(t.lo, t.hi, undefined));
 }
@@ -102,23 +87,20 @@ template <class V, class Kernel, class F>
         [&](interval const& t, bool&) { return f(t); });
 }
 
-template <class V>
-[[nodiscard]] bounds<V> exp(bounds<V> const& x) noexcept {
+/// An increasing function from its kernels at the two ends, of which `f` is that of intervals.
+template <auto Lower, auto Upper, class V, class F>
+[[nodiscard]] bounds<V> increasing(bounds<V> const& x, F const& f) noexcept {
     return evaluate(
         x,
         [](V lo, V hi) {
-            return bounds<V>{exp_lower(lo), exp_upper(hi)};
+            return bounds<V>{Lower(lo), Upper(hi)};
         },
-        [](interval const& t) { return sivid::exp(t); });
+        f);
 }
 template <class V>
-[[nodiscard]] bounds<V> expm1(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            return bounds<V>{expm1_lower(lo), expm1_upper(hi)};
-        },
-        [](interval const& t) { return sivid::expm1(t); });
+[[nodiscard]] bounds<V> exp(bounds<V> const& x) noexcept {
+    return increasing<exp_lower<V>, exp_upper<V>>(x,
+                                                  [](interval const& t) { return sivid::exp(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> log(bounds<V> const& x, mask_of<V>& undefined) noexcept {
@@ -130,16 +112,6 @@ template <class V>
         },
         [](interval const& t, bool& cut) { return sivid::log(t, cut); });
 }
-template <class V>
-[[nodiscard]] bounds<V> log1p(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return evaluate(
-        x, undefined,
-        [](V lo, V hi, mask_of<V>& left) {
-            left = left | (lo <= V(-1.0));
-            return empty_where(hi <= V(-1.0), bounds<V>{log1p_lower(lo), log1p_upper(hi)});
-        },
-        [](interval const& t, bool& cut) { return sivid::log1p(t, cut); });
-}
 
 /// y, with f in the lanes that have an end beyond the limit of the trigonometric kernels.
 template <class V, class F>
@@ -148,29 +120,26 @@ template <class V, class F>
     unsigned const far = (mag(x) > V(trigonometric_limit)).bits();
     if (far == 0) [[likely]]
         return y;
-    return replace_lanes(y, far, undefined, f, x);
+    return replace_lanes(y, far, x, undefined, f);
+}
+/// sin or cos from their kernel.
+template <auto Kernel, class V, class F>
+[[nodiscard]] bounds<V> wave(bounds<V> const& x, F const& f) noexcept {
+    mask_of<V> ignored{};
+    return evaluate(
+        x, ignored,
+        [&](V lo, V hi, mask_of<V>& left) {
+            return replace_beyond_limit(Kernel(lo, hi), bounds<V>{lo, hi}, left, f);
+        },
+        f);
 }
 template <class V>
 [[nodiscard]] bounds<V> sin(bounds<V> const& x) noexcept {
-    mask_of<V> ignored{};
-    auto const f = [](interval const& t, bool&) { return sivid::sin(t); };
-    return evaluate(
-        x, ignored,
-        [&](V lo, V hi, mask_of<V>& left) {
-            return replace_beyond_limit(sin_within_limit(lo, hi), bounds<V>{lo, hi}, left, f);
-        },
-        f);
+    return wave<sin_within_limit<V>>(x, [](interval const& t, bool&) { return sivid::sin(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> cos(bounds<V> const& x) noexcept {
-    mask_of<V> ignored{};
-    auto const f = [](interval const& t, bool&) { return sivid::cos(t); };
-    return evaluate(
-        x, ignored,
-        [&](V lo, V hi, mask_of<V>& left) {
-            return replace_beyond_limit(cos_within_limit(lo, hi), bounds<V>{lo, hi}, left, f);
-        },
-        f);
+    return wave<cos_within_limit<V>>(x, [](interval const& t, bool&) { return sivid::cos(t); });
 }
 template <class V>
 [[nodiscard]] bounds<V> tan(bounds<V> const& x, mask_of<V>& undefined) noexcept {
@@ -187,108 +156,14 @@ template <class V>
 
 template <class V>
 [[nodiscard]] bounds<V> atan(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            return bounds<V>{atan_lower(lo), atan_upper(hi)};
-        },
-        [](interval const& t) { return sivid::atan(t); });
+    return increasing<atan_lower<V>, atan_upper<V>>(
+        x, [](interval const& t) { return sivid::atan(t); });
 }
 
-/// Cut to [-1, 1]; `outside` where nothing is left.
-template <class V>
-struct unit_cut {
-    bounds<V> x;
-    mask_of<V> outside;
-};
-template <class V>
-[[nodiscard]] unit_cut<V> cut_to_unit(bounds<V> const& x) noexcept {
-    V const one(1.0);
-    return {{max(-one, x.lo), min(one, x.hi)}, (x.lo > one) | (x.hi < -one)};
-}
-template <class V>
-[[nodiscard]] bounds<V> asin(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return evaluate(
-        x, undefined,
-        [](V lo, V hi, mask_of<V>& left) {
-            left = left | (lo < V(-1.0)) | (hi > V(1.0));
-            auto const c = cut_to_unit(bounds<V>{lo, hi});
-            return empty_where(c.outside, bounds<V>{asin_lower(c.x.lo), asin_upper(c.x.hi)});
-        },
-        [](interval const& t, bool& cut) { return sivid::asin(t, cut); });
-}
-template <class V>
-[[nodiscard]] bounds<V> acos(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return evaluate(
-        x, undefined,
-        [](V lo, V hi, mask_of<V>& left) {
-            left = left | (lo < V(-1.0)) | (hi > V(1.0));
-            auto const c = cut_to_unit(bounds<V>{lo, hi});
-            return empty_where(c.outside, bounds<V>{acos_lower(c.x.hi), acos_upper(c.x.lo)});
-        },
-        [](interval const& t, bool& cut) { return sivid::acos(t, cut); });
-}
-
-template <class V>
-[[nodiscard]] bounds<V> sinh(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            return bounds<V>{sinh_lower(lo), sinh_upper(hi)};
-        },
-        [](interval const& t) { return sivid::sinh(t); });
-}
-template <class V>
-[[nodiscard]] bounds<V> cosh(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            bounds<V> const t{lo, hi};
-            return bounds<V>{cosh_lower(mig(t)), cosh_upper(mag(t))};
-        },
-        [](interval const& t) { return sivid::cosh(t); });
-}
 template <class V>
 [[nodiscard]] bounds<V> tanh(bounds<V> const& x) noexcept {
-    return evaluate(
-        x,
-        [](V lo, V hi) {
-            return bounds<V>{tanh_lower(lo), tanh_upper(hi)};
-        },
-        [](interval const& t) { return sivid::tanh(t); });
-}
-
-template <class V>
-[[nodiscard]] bounds<V> asinh(bounds<V> const& x) noexcept {
-    mask_of<V> ignored{};
-    return lane_by_lane<V>(
-        ignored, [](interval const& t, bool&) { return sivid::asinh(t); }, x);
-}
-template <class V>
-[[nodiscard]] bounds<V> acosh(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return lane_by_lane<V>(
-        undefined, [](interval const& t, bool& cut) { return sivid::acosh(t, cut); }, x);
-}
-template <class V>
-[[nodiscard]] bounds<V> atanh(bounds<V> const& x, mask_of<V>& undefined) noexcept {
-    return lane_by_lane<V>(
-        undefined, [](interval const& t, bool& cut) { return sivid::atanh(t, cut); }, x);
-}
-template <class V>
-[[nodiscard]] bounds<V> pow(bounds<V> const& x, bounds<V> const& y,
-                            mask_of<V>& undefined) noexcept {
-    return lane_by_lane<V>(
-        undefined,
-        [](interval const& s, interval const& t, bool& cut) { return sivid::pow(s, t, cut); }, x,
-        y);
-}
-template <class V>
-[[nodiscard]] bounds<V> atan2(bounds<V> const& y, bounds<V> const& x,
-                              mask_of<V>& undefined) noexcept {
-    return lane_by_lane<V>(
-        undefined,
-        [](interval const& s, interval const& t, bool& cut) { return sivid::atan2(s, t, cut); }, y,
-        x);
+    return increasing<tanh_lower<V>, tanh_upper<V>>(
+        x, [](interval const& t) { return sivid::tanh(t); });
 }
 
 } // namespace SIVID_PACK_TARGET

@@ -74,10 +74,6 @@ public:
     }
     friend vector_neon sqrt(vector_neon a) noexcept { return vector_neon{vsqrtq_f64(a.v_)}; }
     friend vector_neon abs(vector_neon a) noexcept { return vector_neon{vabsq_f64(a.v_)}; }
-    /// |a| with the sign bit of b.
-    friend vector_neon copysign(vector_neon a, vector_neon b) noexcept {
-        return vector_neon{vbslq_f64(sign_bits(), b.v_, a.v_)};
-    }
     /// The second operand where one of them is NaN (the machine's own would be NaN).
     friend vector_neon min(vector_neon a, vector_neon b) noexcept { return select(a < b, a, b); }
     friend vector_neon max(vector_neon a, vector_neon b) noexcept { return select(b < a, a, b); }

@@ -74,10 +74,6 @@ public:
     friend vector_portable abs(vector_portable a) noexcept {
         return vector_portable{std::fabs(a.v_)};
     }
-    /// |a| with the sign bit of b.
-    friend vector_portable copysign(vector_portable a, vector_portable b) noexcept {
-        return vector_portable{std::copysign(a.v_, b.v_)};
-    }
     /// The second operand where one of them is NaN.
     friend vector_portable min(vector_portable a, vector_portable b) noexcept {
         return vector_portable{a.v_ < b.v_ ? a.v_ : b.v_};

@@ -92,11 +92,6 @@ public:
     friend vector_sse2 abs(vector_sse2 a) noexcept {
         return vector_sse2{_mm_andnot_pd(_mm_set1_pd(-0.0), a.v_)};
     }
-    /// |a| with the sign bit of b.
-    friend vector_sse2 copysign(vector_sse2 a, vector_sse2 b) noexcept {
-        auto const sign = _mm_set1_pd(-0.0);
-        return vector_sse2{_mm_or_pd(_mm_andnot_pd(sign, a.v_), _mm_and_pd(sign, b.v_))};
-    }
     /// The second operand where one of them is NaN.
     friend vector_sse2 min(vector_sse2 a, vector_sse2 b) noexcept {
         return vector_sse2{_mm_min_pd(a.v_, b.v_)};

@@ -83,13 +83,7 @@ shaped_problem::of(identification_problem const& problem, std::function<bool()> 
     result.parameters_ = problem.prior;
     auto outputs = model.rate;
     outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
-    auto const needed = operands_of(model.g, outputs, result.instead());
-    for (std::size_t k = 0; k < model.g.size(); ++k) {
-        auto const& n = model.g.nodes()[k];
-        if (needed[k] && n.op == operation::constant) {
-            result.kept_.push_back(static_cast<std::size_t>(n.index));
-        }
-    }
+    result.kept_ = leaves_of(model.g, outputs, operation::constant, result.instead());
     return result;
 }
 

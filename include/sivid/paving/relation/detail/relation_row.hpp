@@ -171,20 +171,10 @@ inline void add_ratios(relation_row& row, graph_range const& atoms) {
         row.width.push_back(falling ? -width(range) : width(range));
     }
     row.functions.push_back(split.rest);
-    auto const seen = operands_of(g, row.functions);
-    for (std::size_t k = 0; k < seen.size(); ++k) {
-        if (seen[k] && g.nodes()[k].op == operation::constant) {
-            row.inseparable.insert(static_cast<std::size_t>(g.nodes()[k].index));
-        }
-    }
+    for (auto const k : leaves_of(g, row.functions, operation::constant)) row.inseparable.insert(k);
     if (row.bounded) paving_detail::add_ratios(row, atoms);
-    auto const needed = reachable(g, row.functions);
-    for (std::size_t k = 0; k < needed.size(); ++k) {
-        auto const& n = g.nodes()[k];
-        if (!needed[k]) continue;
-        if (n.op == operation::state) row.states.insert(static_cast<std::size_t>(n.index));
-        row.uses_inputs = row.uses_inputs || n.op == operation::input;
-    }
+    for (auto const k : leaves_of(g, row.functions, operation::state)) row.states.insert(k);
+    row.uses_inputs = row.uses_inputs || !leaves_of(g, row.functions, operation::input).empty();
     return row;
 }
 

@@ -76,13 +76,8 @@ private:
         return std::any_of(delays.begin(), delays.end(),
                            [index](signal_memory const& d) { return d.index == index; });
     };
-    auto const used = operands_of(changed.g, rates);
-    for (std::size_t k = 0; k < used.size(); ++k) {
-        auto const& n = changed.g.nodes()[k];
-        if (used[k] && n.op == operation::input &&
-            late(changed.input_memory, static_cast<std::size_t>(n.index))) {
-            return false;
-        }
+    for (auto const u : leaves_of(changed.g, rates, operation::input)) {
+        if (late(changed.input_memory, u)) return false;
     }
     for (auto const& name : f.channels) {
         auto const y = index_of(base.about.channels, name, "channel");
