@@ -2,6 +2,8 @@
 #ifndef EXAMPLES_CONSOLE_DECISION_COMMAND_HPP
 #define EXAMPLES_CONSOLE_DECISION_COMMAND_HPP
 
+#include <sivid/paving/run_options.hpp>
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -32,6 +34,7 @@ struct decision_command {
     double target = 0.5;              ///< the share of its width that a goal may keep
     double budget = 10;               ///< [s]
     std::size_t boxes = 20'000;       ///< of gains
+    sivid::run_options run{};         ///< how motions are enclosed
     bool quiet = false;
     std::string command_line;
 };

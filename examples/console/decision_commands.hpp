@@ -40,7 +40,7 @@ inline int run_predict(sivid::recorded_model const& model,
     watch_interrupts();
     progress_line progress(c.quiet);
     progress.note("predicting " + task.scenario() + " for all that " + task.dataset() + " leaves");
-    auto const found = task.predicted(*about, detail::options_for(c.budget), {});
+    auto const found = task.predicted(*about, detail::options_for(c, c.budget), {});
     auto options = task.page_options();
     detail::add_lines(options, task, *about, {}, std::max(0.2, c.budget - progress.elapsed()));
     progress.finish();
@@ -96,12 +96,13 @@ inline int run_verify(sivid::recorded_model const& model,
     progress_line progress(c.quiet);
     progress.note("verifying " + task.scenario() + " for all that " + task.dataset() + " leaves");
     auto const found =
-        sivid::verify(about->problem, asked, about->feasible, detail::options_for(c.budget, 60));
+        sivid::verify(about->problem, asked, about->feasible, detail::options_for(c, c.budget, 60));
     progress.finish();
     if (!c.out.empty()) {
         auto page = task.page_options();
         double const left = std::max(0.2, c.budget - progress.elapsed());
-        auto const tubes = task.predicted(*about, detail::options_for(0.5 * left), asked.margins);
+        auto const tubes =
+            task.predicted(*about, detail::options_for(c, 0.5 * left), asked.margins);
         detail::add_lines(page, task, *about, asked.margins, 0.3 * left);
         if (found.witness) {
             page.single = task.simulated(*about, asked.margins, found.witness->parameters,
@@ -142,7 +143,7 @@ inline int run_control(sivid::recorded_model const& model,
     progress_line progress(c.quiet);
     progress.note("gains for " + task.scenario() + ", for all that " + task.dataset() + " leaves");
     sivid::gain_options options;
-    options.motions = detail::options_for(0.7 * c.budget, 60);
+    options.motions = detail::options_for(c, 0.7 * c.budget, 60);
     options.boxes = c.boxes;
     auto const found = sivid::find_gains(about->problem, gains, asked, about->feasible, options);
     auto const left = [&] { return std::max(0.2, c.budget - progress.elapsed()); };
@@ -153,9 +154,9 @@ inline int run_control(sivid::recorded_model const& model,
         about->problem = sivid::with_gains(about->problem, gains, *found.suggested);
         about->direct = sivid::with_gains(about->direct, gains, *found.suggested);
         proof = sivid::verify(about->problem, asked, about->feasible,
-                              detail::options_for(0.5 * left(), 60));
+                              detail::options_for(c, 0.5 * left(), 60));
         if (!c.out.empty()) {
-            tubes = task.predicted(*about, detail::options_for(0.5 * left()), asked.margins);
+            tubes = task.predicted(*about, detail::options_for(c, 0.5 * left()), asked.margins);
             detail::add_lines(page, task, *about, asked.margins, 0.5 * left());
         }
     }

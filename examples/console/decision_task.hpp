@@ -380,8 +380,10 @@ private:
 };
 
 /// @param cells  of the grid in time, at least; `verify` refines it where a verdict hangs on it
-inline sivid::prediction_options options_for(double seconds, std::size_t cells = 120) {
+inline sivid::prediction_options options_for(decision_command const& c, double seconds,
+                                             std::size_t cells = 120) {
     sivid::prediction_options o;
+    o.run = c.run;
     o.seconds = seconds;
     o.cells = cells;
     o.keep_going = [] { return !console::interrupted(); };

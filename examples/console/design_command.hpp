@@ -152,6 +152,7 @@ inline int run_design(sivid::recorded_model const& open,
                              ? std::pow(c.target, 1.0 / static_cast<double>(answer.goals.size()))
                              : c.target;
         options.keep_going = [] { return !console::interrupted(); };
+        options.run = c.run;
         answer.found =
             two ? sivid::design_separation(about->problem, two->about->problem, menu, answer.plan,
                                            one.asked(), two->asked(), options)
@@ -166,7 +167,7 @@ inline int run_design(sivid::recorded_model const& open,
                                          answer.varied, best->inputs, names_of(model.about));
             double const left = std::max(0.2, c.budget - progress.elapsed());
             if (!c.out.empty()) {
-                tubes = task.predicted(*about, detail::options_for(0.5 * left), {});
+                tubes = task.predicted(*about, detail::options_for(c, 0.5 * left), {});
                 detail::add_lines(page, task, *about, {}, 0.3 * left);
             }
         }

@@ -11,6 +11,7 @@
 #include <sivid/decision/rank.hpp>
 #include <sivid/io/decision_json.hpp>
 #include <sivid/io/file_set.hpp>
+#include <sivid/paving/run_options.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/ranking_page.hpp>
 #include <sivid/version.hpp>
@@ -30,6 +31,7 @@ struct rank_request {
     double budget = 10; ///< [s]
     bool quiet = false;
     std::string command_line;
+    sivid::run_options run{}; ///< how experiments are enclosed
 };
 
 /// Ranks parameters and, of a data set, measurements; prints one line a channel or a group, and
@@ -46,6 +48,7 @@ inline int run_rank(sivid::identification_problem const& problem, rank_request c
     sivid::rank_options options;
     options.seconds = c.scenario.empty() ? c.budget / 2 : c.budget;
     options.keep_going = keep_going;
+    options.run = c.run;
     auto const found = sivid::rank(problem, options);
     std::optional<sivid::measurement_ranking> measurements;
     if (c.scenario.empty()) { // a scenario has none
@@ -53,6 +56,7 @@ inline int run_rank(sivid::identification_problem const& problem, rank_request c
         sivid::measurement_ranking_options asked;
         asked.seconds = std::max(0.0, c.budget - found.seconds);
         asked.keep_going = keep_going;
+        asked.run = c.run;
         measurements = sivid::rank_measurements(problem, asked);
     }
     auto const* const worth = measurements ? &*measurements : nullptr;

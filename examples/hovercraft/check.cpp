@@ -68,6 +68,9 @@ std::vector<sivid::check_finding> work(sivid::identification_problem const& prob
 } // namespace
 
 int run(check_command const& c) {
+    if (!c.how.set.empty())
+        throw bad_request("--set: check proves by sets of its own, of first order, and with --all "
+                          "by Taylor models before these; leave it out, whatever identify took");
     console::watch_interrupts(); // reading a large result takes a while, too
     auto const stored = sivid::read_identification(c.result);
     if (c.dataset.empty() && stored.source_folder.empty())
@@ -100,6 +103,7 @@ int run(check_command const& c) {
     options.sample = c.sample;
     options.seed = c.seed;
     options.seconds = c.budget.value_or(c.all ? 3600 : 10);
+    apply(c.how, options.certificate.enclosure);
     options.further_assumptions = assumptions_of(data, model, stored.effects);
     options.certificate.keep_going = [] { return !console::interrupted(); };
     auto const findings = work(problem, stored, options, c.multiprecision);
@@ -110,12 +114,13 @@ int run(check_command const& c) {
         seconds += f.seconds;
         if (f.found == outcome::nothing && !f.detail.empty()) left += ", not the " + f.what;
     }
+    auto const by = c.how.method == "taylor" ? std::string{} : ", " + c.how.method;
     std::cout << "  witness and products in " << exact_words << "; boxes in "
               << (c.multiprecision ? exact_words : fast_words)
-              << (c.all
-                      ? ": Taylor models in scalars, then first-order sets (Lohner), decided anew\n"
-                      : ", by first-order sets (Lohner), not by the Taylor models that found "
-                        "them\n")
+              << (c.all ? ": Taylor models in scalars, then first-order sets (Lohner" + by +
+                              "), decided anew\n"
+                        : ", by first-order sets (Lohner" + by +
+                              "), not by the Taylor models that found them\n")
               << title_of(data, stored.effects) << ": "
               << (verdict == outcome::refuted     ? "REFUTED"
                   : verdict == outcome::undecided ? "not verified within the budget"

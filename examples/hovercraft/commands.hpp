@@ -58,6 +58,7 @@ struct check_command {
     bool all = false;              ///< every box instead of a sample
     std::size_t sample = 24;
     std::uint64_t seed = 1;
+    enclosing how;                ///< without a set: it has its own
     std::optional<double> budget; ///< [s]; by default 10, or 3600 for all
     bool multiprecision = false;  ///< boxes too
 };
@@ -68,6 +69,7 @@ struct check_command {
 struct diagnose_command {
     hovercraft craft;
     std::filesystem::path dataset, out;
+    enclosing how{.set = "taylor-model"};
     double budget = 60;      ///< [s]
     std::size_t threads = 0; ///< 0: as many as the machine has
     bool quiet = false;
@@ -94,7 +96,7 @@ struct simulate_command {
     double rate = 100;
     std::optional<double> input_rate; ///< of sampled inputs; without it the shapes are exact
     bool validated = false;
-    enclosing how{.set = "first-order"};
+    enclosing how; ///< without a set: first-order, and of ranges taylor-model
     std::string command_line;
 };
 [[nodiscard]] int run(simulate_command const& command);
@@ -109,6 +111,7 @@ struct rank_command {
     std::string scenario;             ///< a name, a file, or all; neither: the state equations
     std::vector<std::string> unknown; ///< of a scenario: the constants to rank
     std::filesystem::path out;
+    enclosing how{.set = "taylor-model"};
     double budget = 10;            ///< [s]
     std::vector<std::string> free; ///< derived constants to take as independent
     bool quiet = false;

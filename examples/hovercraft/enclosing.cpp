@@ -7,7 +7,6 @@
 #include <sivid/paving/run/runge_kutta_run.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -19,14 +18,6 @@ std::string name_of(sivid::tableau const& method) {
     auto name = method.name;
     std::replace(name.begin(), name.end(), ' ', '-');
     return name;
-}
-
-/// What a method of low order can reach in steps that are worth taking.
-void suit(sivid::enclosure_options& options) {
-    if (!options.method) return;
-    double const order = static_cast<double>(options.method->order);
-    options.tolerance = std::max(options.tolerance, std::pow(10.0, -2 - 2 * order));
-    options.minimum_step = std::min(options.minimum_step, 1e-5);
 }
 
 sivid::carried_set set_of(enclosing const& how) {
@@ -50,18 +41,21 @@ std::optional<sivid::tableau> method_of(enclosing const& how) {
     throw bad_request("--method: there is no method '" + how.method + "'");
 }
 
+void apply(enclosing const& how, sivid::enclosure_options& options) {
+    options.method = method_of(how);
+    options = for_method(std::move(options));
+}
+
 void apply(enclosing const& how, sivid::run_options& run) {
-    run.enclosure.method = method_of(how);
+    apply(how, run.enclosure);
     run.set = set_of(how);
-    suit(run.enclosure);
     if (run.enclosure.method) run.make = &sivid::runge_kutta_run;
 }
 
 sivid::enclosed_motion enclosed(enclosing const& how, std::shared_ptr<sivid::flow const> f,
                                 sivid::box const& start, double duration,
                                 sivid::enclosure_options options) {
-    options.method = method_of(how);
-    suit(options);
+    apply(how, options);
     return sivid::enclose(std::move(f), start, sivid::box{}, 0, duration, set_of(how), options);
 }
 

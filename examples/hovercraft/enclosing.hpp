@@ -25,8 +25,15 @@ struct enclosing {
 /// @throws bad_request  for a method that does not exist
 [[nodiscard]] std::optional<sivid::tableau> method_of(enclosing const& how);
 
-/// Lets an identification enclose so.
+/// Whether it says what experiments do anyway: Taylor models that follow the Taylor series.
+[[nodiscard]] inline bool is_usual(enclosing const& how) {
+    return how.method == "taylor" && how.set == "taylor-model";
+}
+
+/// Lets what runs experiments enclose so.
 void apply(enclosing const& how, sivid::run_options& run);
+/// The method alone, for sets of first order.
+void apply(enclosing const& how, sivid::enclosure_options& options);
 
 /// The motions from a box of starts.
 [[nodiscard]] sivid::enclosed_motion enclosed(enclosing const& how,

@@ -294,7 +294,7 @@ int help(identify_command const& c, sivid::identification_problem const& problem
 bool asks_for_more(identify_command const& c) {
     return c.online || c.compare || c.verdict_only || c.checkpoint || c.resume ||
            c.fewest_outliers || c.identifiability || several(c) || c.algorithm != "contracting" ||
-           c.how.method != "taylor" || c.how.set != "taylor-model" || c.accuracy || c.memory;
+           !is_usual(c.how) || c.accuracy || c.memory;
 }
 /// Slice by slice.
 sivid::identification remembered(remembering_problem const& p,
@@ -309,6 +309,7 @@ sivid::identification remembered(remembering_problem const& p,
 
 sivid::online_options online_options_of(identify_command const& c) {
     sivid::online_options options;
+    apply(c.how, options.test.run);
     if (c.accuracy) {
         options.refinement.accuracy = *c.accuracy;
         options.refinement.sufficient_ratio = 1;
@@ -338,8 +339,10 @@ int run(identify_command const& c) {
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
-    if (c.online && (c.how.method != "taylor" || c.how.set != "taylor-model"))
-        throw bad_request("--online goes with neither --method nor --set");
+    if (c.online && c.how.method != "taylor" && c.how.set == "taylor-model")
+        throw bad_request("--online carries Taylor models on by the Taylor series alone: give "
+                          "--set first-order with --method " +
+                          c.how.method);
     if (!c.picture.empty())
         static_cast<void>(sivid::index_of(model.about.channels, c.picture, "channel"));
     if (c.online && c.verdict_only) throw bad_request("--online goes not with --verdict-only");

@@ -138,8 +138,7 @@ void add_enclosing(CLI::App& command, enclosing& how) {
     add_method(command, how, "enclosures");
     command
         .add_option("--set", how.set,
-                    "sets that are carried: of first order (doubletons), or Taylor models, with a "
-                    "Runge-Kutta method in six unknowns at most")
+                    "sets that are carried: of first order (doubletons), or Taylor models")
         ->check(CLI::IsMember({"first-order", "taylor-model"}))
         ->capture_default_str();
 }
@@ -281,6 +280,8 @@ private:
         s->add_option("--sample", c.sample, "so many inside and so many excluded boxes")
             ->capture_default_str();
         s->add_option("--seed", c.seed, "of the sample")->capture_default_str();
+        add_method(*s, c.how, "first-order sets of the check");
+        s->add_option("--set", c.how.set, "refused: the check has sets of its own");
         s->add_option("--budget", c.budget, "seconds (10, with --all 3600)")
             ->check(console::number_between(0.0, 1e9));
         s->add_flag("--multiprecision", c.multiprecision,
@@ -303,9 +304,15 @@ private:
         std::string names = "a JSON file, data:NAME for one of the data set, or one of:";
         for (auto const& b : built_in_scenarios()) names += std::string{" "} + std::string{b.name};
         console::add_options(*s, what, decision_, names);
+        s->get_option("--set")->description(
+            s->get_option("--set")->get_description() +
+            "; or the sets that are carried: taylor-model (the default), first-order");
+        add_method(*s, decision_how_, "enclosures of motions");
         add_variants(*s, shared_);
         s->callback([this, what] {
             action_ = [this, what] {
+                take_set(decision_.set, decision_how_);
+                apply(decision_how_, decision_.run);
                 decision_.command_line = line_;
                 return run_decision(what, shared_.craft(), decision_);
             };
@@ -319,6 +326,7 @@ private:
         auto& c = diagnose_;
         s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
         s->add_option("--out", c.out, "folder for report.html and diagnosis.json")->required();
+        add_enclosing(*s, c.how);
         s->add_option("--budget", c.budget, "seconds; it ends earlier when nothing is left to do")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
@@ -461,7 +469,8 @@ private:
         s->add_option("--set", shared_.set,
                       "values of constants, such as Sg=0.05, or ranges, such as Ff=0.3:0.7: the "
                       "line is that of the middle, the proven tube that of all; or the sets that "
-                      "tubes carry: first-order (the default), taylor-model");
+                      "tubes carry: first-order (the default), taylor-model (the default of "
+                      "ranges)");
         s->add_option("--rate", c.rate, "rows of the CSV a second")->capture_default_str();
         s->add_option("--input-rate", c.input_rate,
                       "sample the inputs so often, as `generate` does; else their exact shapes")
@@ -500,6 +509,7 @@ private:
         s->add_option("--budget", rank_.budget, "seconds; it ends earlier when bounds are close")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
+        add_enclosing(*s, rank_.how);
         s->add_option("--free", rank_.free,
                       "of the equations: constants to rank although they follow from others, such "
                       "as A")
@@ -545,6 +555,7 @@ private:
     identify_command identify_;
     check_command check_;
     console::decision_command decision_;
+    enclosing decision_how_{.set = "taylor-model"};
     diagnose_command diagnose_;
     console::fleet_command fleet_;
     std::string fleet_of_, fleet_task_, fleet_options_;

@@ -112,12 +112,16 @@ sivid::identification_problem measured(sivid::recorded_model const& model, rank_
 int run(rank_command const& c) {
     auto const model = sivid::record_model(c.craft);
     console::rank_request request{"", c.scenario, c.out, c.budget, c.quiet, c.command_line};
+    apply(c.how, request.run);
     if (!c.scenario.empty()) return console::run_rank(measured(model, c), request);
     if (!c.dataset.empty()) {
         auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
         request.dataset = data.id;
         return console::run_rank(posed(data, model, {}), request);
     }
+    if (!is_usual(c.how))
+        throw bad_request("--method and --set: the effects on the state equations need no "
+                          "trajectories; give a data set or --scenario to rank by enclosures");
     auto const ranking = rank_constants(model, default_ranges(), c.free);
     console::prepare_folder(c.out);
     auto const ranges = default_ranges();

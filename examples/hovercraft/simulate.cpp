@@ -63,8 +63,10 @@ public:
             return;
         }
         sivid::enclosure_options options;
-        options.maximum_step = s.duration / 300;
-        options.minimum_step = 1e-5 * s.duration; // a tube that needs shorter ones gets no further
+        // Shares of the duration, as options say them (`for_span`): a tube that needs shorter
+        // steps gets no further.
+        options.maximum_step = std::min(100.0, s.duration) / 300;
+        options.minimum_step = 1e-5 * std::max(1.0, s.duration);
         options.method = method_of(c.how);
         auto const tube = enclosed(c.how, flow_, start, s.duration, options);
         spans_ = tube.spans();
@@ -72,7 +74,7 @@ public:
             at_end_ = tube.at(tube.end_time());
             return;
         }
-        if (c.how.set == "first-order") {
+        if (c.how.set != "taylor-model") {
             auto const why =
                 sivid::explain_enclosed_motion(*flow_, start, sivid::box{}, 0, s.duration, options);
             failure_ = why->message(about_.states[why->failure.component].name);
@@ -226,7 +228,11 @@ private:
         p.inputs = inputs;
         p.initial = start;
         p.end = scenario_.duration;
-        auto const found = sivid::predict(p, {.cells = 300});
+        auto how = c.how;
+        if (how.set.empty()) how.set = "taylor-model"; // ranges are wide
+        sivid::prediction_options options{.cells = 300};
+        apply(how, options.run);
+        auto const found = sivid::predict(p, options);
         using traits = sivid::interval_traits<sivid::interval>;
         auto const states_at = [&](std::size_t segment) {
             sivid::box x(found.states.size());

@@ -26,12 +26,10 @@ struct cart {
 };
 
 int main() {
-    experiment run;
-    run.name = "run";
-    run.initial = {interval(0.0)};
+    experiment run{"run", {}, 0, {0}, {}};
     for (double t = 0.1; t < 3; t += 0.1) { // v' = 2 - v^2/2, within +-0.02
         double const v = 2 * std::tanh(t);
-        run.measurements.push_back({t, 0, interval(v - 0.02, v + 0.02)});
+        run.measurements.push_back({t, 0, {v - 0.02, v + 0.02}});
     }
     auto const said = diagnose({record_model<cart>(), {{"a"}, {}}, {hull(1_dec, 3_dec)}, {run}},
                                {effects::quadratic_damping("drag", "v", "1/m", {0_dec, 1_dec}),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion as the textbook has them: a ball on a rod, with the pull that keeps it there.
-#include <sivid/enclosure/enclosed_motion.hpp>
+#include <sivid/enclosure/enclose.hpp>
 #include <sivid/number/decimal_output.hpp>
 
 #include <iostream>
@@ -32,8 +32,7 @@ struct ball { // M (x', z) = f: two definitions, two force balances, the rod's l
 };
 
 int main() {
-    auto const f = std::make_shared<flow>(record_model<ball>(), parameter_choice{{"m"}, {}},
-                                          std::vector<signal>{});
-    enclosed_motion const motion(f, {1, 0, 0, 0}, {hull(0.99_dec, 1.01_dec)}, 0, 1);
+    auto const motion =
+        enclose(record_model<ball>(), {{"m"}, {}}, {1, 0, 0, 0}, {hull(0.99_dec, 1.01_dec)}, 0, 1);
     std::cout << "after 0.5 s the pull is in " << to_string(motion.observe_at(0.5)[0], 5) << '\n';
 }

@@ -4,7 +4,6 @@
 #include <sivid/paving/bisection_test.hpp>
 
 #include <iostream>
-
 using namespace sivid;
 struct measured { // the empty set is NaN +- NaN
     double middle = 0, radius = 0;
@@ -32,9 +31,10 @@ struct tank { // level' = -k level
     auto observe(auto const&, auto const& x, auto const&, auto const&) const { return x; }
 };
 int main() {
-    experiment const run{"run", {}, 0, {interval(2)}, {{1, 0, hull(1.2_dec, 1.3_dec)}}};
+    experiment const run{"run", {}, 0, {interval(2)}, {{1, 0, {1.2, 1.3}}}};
     auto const found = identify_by_bisection<measured>(
-        {record_model<tank>(), {{"k"}, {}}, {hull(0.1_dec, 1_dec)}, {run}});
-    auto const k = box_in<measured>(found.paving.outer_hull())[0];
+        {record_model<tank>(), {{"k"}, {}}, {interval(0.1, 1)}, {run}});
+    auto const left = found.paving.outer_hull()[0];
+    auto const k = interval_traits<measured>::bounds(left.lower(), left.upper());
     std::cout << "k = " << k.middle << " +- " << k.radius << " 1/s\n";
 }

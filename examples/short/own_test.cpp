@@ -25,11 +25,10 @@ struct ring {
 
 int main() {
     ring test;
-    inversion_options options;
-    options.accuracy = 2e-4;      // of the prior's sides
-    options.sufficient_ratio = 1; // do not stop before that
-    auto const found = invert(test, {interval(-5, 5), interval(-5, 5)}, options);
-    std::cout << "area in [" << to_decimal_lower(100 * found.paving.inner_volume().lower(), 4)
-              << ", " << to_decimal_upper(100 * found.paving.outer_volume().upper(), 4)
-              << "] (pi by hand) after " << found.tested << " boxes\n";
+    auto const found = invert(test, {interval(-5, 5), interval(-5, 5)},
+                              {.accuracy = 2e-4,        // of the prior's sides
+                               .sufficient_ratio = 1}); // do not stop before that
+    auto const share = hull(found.paving.inner_volume(), found.paving.outer_volume());
+    std::cout << "area in " << to_string(100 * share, 4) << " (pi by hand) after " << found.tested
+              << " boxes\n";
 }

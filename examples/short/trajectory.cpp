@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // All trajectories of a pendulum from a box of starts and lengths, at any time within the span.
-#include <sivid/enclosure/enclosed_motion.hpp>
+#include <sivid/enclosure/enclose.hpp>
 #include <sivid/number/decimal_output.hpp>
 
 #include <iostream>
-#include <memory>
 
 using namespace sivid;
 
@@ -26,11 +25,11 @@ struct pendulum {
 };
 
 int main() {
-    auto const f = std::make_shared<flow>(record_model<pendulum>(), parameter_choice{{"l"}, {}},
-                                          std::vector<signal>{});
-    enclosed_motion const motion(f, {hull(0.99_dec, 1.01_dec), interval(0.0)},
-                                 {hull(0.99_dec, 1.01_dec)}, 0, 3);
+    auto const near_one = hull(0.99_dec, 1.01_dec);
+    auto const motion = enclose(record_model<pendulum>(), {{"l"}, {}}, {near_one, 0}, {near_one}, 0,
+                                3, carried_set::taylor_model, {.method = rk4()});
     for (double t = 0; t <= motion.end_time(); t += 0.5) {
         std::cout << t << " s: angle in " << to_string(motion.at(t)[0], 6) << " rad\n";
     }
+    std::cout << "from 1 s to 2 s: in " << to_string(motion.over(1, 2)[0], 6) << " rad\n";
 }

@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -288,22 +289,111 @@ TEST_CASE("each short program is whole in the guide, in at most 40 lines", "[rea
     CHECK(programs >= 4);
 }
 
+namespace {
+
+/// What headers declare in sivid's namespaces: types and functions, which clang-format leaves at
+/// the begin of a line.
+std::set<std::string> const& names_of_sivid() {
+    static std::set<std::string> const all = [] {
+        std::set<std::string> names{"effects"}; // a namespace whose functions count as one's own
+        static std::regex const type{"(?:struct|class|enum class|concept|using) (\\w+).*"};
+        static std::regex const value{"(?:inline )?constexpr [^(]* (\\w+)(?:;|\\{| =).*"};
+        static std::regex const function{"(\\w+)\\("};
+        for (auto const& e : std::filesystem::recursive_directory_iterator{
+                 std::filesystem::path{SIVID_SOURCE_DIR} / "include/sivid"}) {
+            if (!e.is_regular_file()) continue;
+            std::istringstream in{text_of_file(e.path())};
+            for (std::string line; std::getline(in, line);) {
+                static std::string const no_declaration = " #/}";
+                if (line.empty() || no_declaration.find(line[0]) != std::string::npos) continue;
+                std::smatch found;
+                if (std::regex_match(line, found, type) || std::regex_match(line, found, value))
+                    names.insert(found[1]);
+                for (std::sregex_iterator f{line.begin(), line.end(), function}, end; f != end; ++f)
+                    names.insert((*f)[1]);
+            }
+        }
+        names.erase("std"); // templates that are specialised there
+        return names;
+    }();
+    return all;
+}
+
+/// The names of sivid in a program: behind `sivid::` or `effects::`, and those without any such
+/// that a header declares and the program does not: a name behind another one is declared there.
+std::set<std::string> names_used(std::string program) {
+    program = std::regex_replace(program, std::regex{"//[^\n]*|#[^\n]*|\"[^\"\n]*\""}, " ");
+    static std::regex const token{R"([A-Za-z_]\w*|\.?\d[\w.]*|::|->|\S)"};
+    std::vector<std::string> all;
+    for (std::sregex_iterator t{program.begin(), program.end(), token}, end; t != end; ++t)
+        all.push_back(t->str());
+    auto const is_word = [](std::string const& t) { return std::isalpha(t[0]) || t[0] == '_'; };
+    // Behind a type and before what is no part of one.
+    auto const is_own = [&](std::string const& before, std::string const& after) {
+        bool const type = is_word(after) || after == "<" || after == "&" || after == "::";
+        return !type && ((is_word(before) && before != "return") || before == "&" || before == ">");
+    };
+    std::set<std::string> own, used;
+    for (std::size_t k = 1; k + 1 < all.size(); ++k)
+        if (is_word(all[k]) && is_own(all[k - 1], all[k + 1])) own.insert(all[k]);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        auto const& word = all[k];
+        if (!is_word(word) || names_of_sivid().count(word) == 0) continue;
+        auto const before = k > 0 ? all[k - 1] : ";";
+        if (before == "::") {
+            auto const& scope = all[k - 2];
+            if (scope == "sivid" || scope == "effects") used.insert(word);
+        } else if (before != "." && before != "->" && own.count(word) == 0) {
+            used.insert(word);
+        }
+    }
+    return used;
+}
+
+} // namespace
+
+TEST_CASE("a short program needs at most twelve names of sivid", "[readme]") {
+    std::filesystem::path const root{SIVID_SOURCE_DIR};
+    std::vector<std::filesystem::path> programs{root / "examples/first_steps/main.cpp"};
+    for (auto const& entry : std::filesystem::directory_iterator{root / "examples/short"})
+        if (entry.path().extension() == ".cpp") programs.push_back(entry.path());
+    for (auto const& file : programs) {
+        auto const names = names_used(text_of_file(file));
+        std::string listed;
+        for (auto const& name : names) listed += name + " ";
+        INFO(file << ": " << listed);
+        CHECK(names.size() <= 12);
+        CHECK(names.size() >= 8);
+    }
+    CHECK(names_used("int main() { sivid::box x = hull(y.hull, a->sqr); int exp = 3; exp(x); }") ==
+          std::set<std::string>{"box", "hull"});
+}
+
 TEST_CASE("entry points say what they throw, guarantee and cost", "[readme]") {
     struct door {
         char const *header, *function;
     };
     for (auto const& [header, function] :
-         {door{"paving/identify.hpp", "identify"}, door{"paving/invert.hpp", "invert"},
+         {door{"paving/identify.hpp", "identify"},
+          door{"paving/invert.hpp", "invert"},
           door{"paving/static_inversion.hpp", "invert_static"},
           door{"paving/identifiability.hpp", "identifiability_of"},
           door{"paving/inflation.hpp", "bound_inflation"},
           door{"paving/outlier_budget.hpp", "smallest_outlier_budget"},
-          door{"enclosure/enclose.hpp", "enclose"}, door{"diagnosis/diagnose.hpp", "diagnose"},
-          door{"decision/prediction.hpp", "predict"}, door{"decision/verification.hpp", "verify"},
+          door{"paving/divisors.hpp", "divisors_of"},
+          door{"paving/bisection_test.hpp", "identify_by_bisection"},
+          door{"enclosure/enclose.hpp", "enclose"},
+          door{"enclosure/tube.hpp", "integrate"},
+          door{"diagnosis/diagnose.hpp", "diagnose"},
+          door{"diagnosis/diagnosis_run.hpp", "judge_by_holdout"},
+          door{"report/diagnosis_page.hpp", "diagnosis_page"},
+          door{"decision/prediction.hpp", "predict"},
+          door{"decision/verification.hpp", "verify"},
           door{"decision/rank.hpp", "rank"},
           door{"decision/measurement_ranking.hpp", "rank_measurements"},
           door{"decision/gain_search.hpp", "find_gains"},
           door{"decision/promised_width.hpp", "promise_widths"},
+          door{"decision/promised_width.hpp", "tell_apart"},
           door{"decision/experiment_design.hpp", "design_experiment"},
           door{"decision/experiment_design.hpp", "design_separation"},
           door{"io/dataset.hpp", "read_dataset"},

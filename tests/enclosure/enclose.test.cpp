@@ -10,8 +10,10 @@
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
+#include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 using namespace sivid;
@@ -35,6 +37,21 @@ bool holds(box const& x, std::vector<double> const& x0, double p, double t) {
     return support::encloses_reference(x[0], c * x0[0] + s * x0[1]) &&
            support::encloses_reference(x[1], c * x0[1] - s * x0[0]);
 }
+
+/// x' = p u - x with an input.
+struct driven {
+    static constexpr auto name = "driven";
+    static constexpr auto states = sivid::states({{"x", "m", 10}});
+    static constexpr auto inputs = sivid::inputs({{"u", "m"}});
+    static constexpr auto channels = sivid::channels({{"square", "m^2"}});
+    static constexpr auto constants = sivid::constants({{"p", "1/s", 1_dec}});
+    auto rate(auto const&, auto const& x, auto const& c, auto const& u) const {
+        return std::array{c[0] * u[0] - x[0]};
+    }
+    auto observe(auto const&, auto const& x, auto const&, auto const&) const {
+        return std::array{sqr(x[0])};
+    }
+};
 
 } // namespace
 
@@ -111,4 +128,98 @@ TEST_CASE("what cannot be enclosed is refused, or ends early with a reason") {
     double const t = 0.9 * motion.end_time();
     CHECK(contains(motion.at(t)[0], 1 / (1 - t)));
     CHECK_THROWS_AS(motion.at(1.5), std::out_of_range);
+}
+
+TEST_CASE("a recorded model needs its names and boxes, and no sizes") {
+    auto const model = record_model<driven>();
+    std::vector<signal> const held{sampled_signal({0}, {2}, interpolation::hold)};
+    box const p{between(0.9, 1.1)}, x0{between(0.4, 0.5)};
+    for (auto const set : {carried_set::doubleton, carried_set::taylor_model}) {
+        for (auto const& method :
+             {std::optional<tableau>{}, std::optional{rk4()}, std::optional{gauss4()}}) {
+            CAPTURE(static_cast<int>(set), method ? method->name : "taylor");
+            auto const motion =
+                enclose(model, {{"p"}, {}}, x0, p, 0, 3, set, {.method = method}, held);
+            REQUIRE(motion.complete());
+            for (double const t : {0.0, 0.7, 2.1, 3.0}) { // at the corners, and their hull
+                long double const rest = std::exp(-static_cast<long double>(t));
+                auto const now = motion.at(t)[0];
+                auto const low = 1.8L + (0.4L - 1.8L) * rest, high = 2.2L + (0.5L - 2.2L) * rest;
+                CHECK(now.lower() <= low);
+                CHECK(now.upper() >= high);
+                CHECK(width(now) < 1.01 * static_cast<double>(high - low) + 1e-9);
+                auto const seen = motion.observe_at(t)[0];
+                CHECK(seen.lower() <= low * low);
+                CHECK(seen.upper() >= high * high);
+                CHECK(width(seen) < 1.05 * static_cast<double>(high * high - low * low) + 1e-9);
+            }
+        }
+    }
+    CHECK_THROWS_AS(enclose(model, {{"q"}, {}}, x0, p, 0, 1, carried_set::doubleton, {}, held),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(enclose(model, {{"p"}, {}}, x0, p, 0, 1), std::invalid_argument); // no input
+    auto const fixed =
+        enclose(model, {{}, {{"p", p[0]}}}, x0, box{}, 0, 3, carried_set::taylor_model, {}, held);
+    CHECK(contains(fixed.at(3)[0], 2 - 1.5 * std::exp(-3.0)));
+}
+
+TEST_CASE("between its steps a motion is told in any order, as tight as at their ends") {
+    auto const motion = enclose(turning(), starts, speeds, 0, 4);
+    REQUIRE(motion.spans().size() > 5);
+    std::vector<double> times;
+    for (int k = 0; k <= 64; ++k) times.push_back(k / 16.0);
+    for (auto const& s : motion.spans()) times.push_back(s.to);
+    auto const once = motion.at(1.3);
+    for (auto t = times.rbegin(); t != times.rend(); ++t) {
+        CAPTURE(*t);
+        auto const now = motion.at(*t);
+        for (double const p : {0.9, 1.0, 1.1}) CHECK(holds(now, {1, 0.05}, p, *t));
+        CHECK(width(now) < width(starts) + 0.25 * *t + 0.02);
+    }
+    CHECK(equal(once[0], motion.at(1.3)[0]));
+    auto const still = enclose(turning(), starts, speeds, 1, 1);
+    CHECK(subset(starts, still.at(1)));
+    CHECK(subset(starts, still.observe_at(1)));
+}
+
+TEST_CASE("steps are relative to the span, be it a microsecond or days") {
+    auto const f = turning();
+    auto const width_after = [&](double span, auto const& enclosed) {
+        box const own{between(1.8 / span, 2.2 / span)}; // two turns of a radian, whatever the unit
+        auto const motion = enclosed(own, span);
+        CAPTURE(span);
+        REQUIRE(motion.complete());
+        CHECK(motion.end_time() == span);
+        CHECK(motion.steps_made < 100);
+        return width(motion.end);
+    };
+    struct result {
+        bool done;
+        double last;
+        box end;
+        std::size_t steps_made;
+        bool complete() const { return done; }
+        double end_time() const { return last; }
+    };
+    for (auto const set : {carried_set::doubleton, carried_set::taylor_model}) {
+        for (auto const& method : {std::optional<tableau>{}, std::optional{rk4()}}) {
+            CAPTURE(static_cast<int>(set), method ? method->name : "taylor");
+            enclosure_options options{.tolerance = 1e-6, .relative_tolerance = 1e-3};
+            options.method = method;
+            auto const by_enclose = [&](box const& own, double span) {
+                auto const m = enclose(f, starts, own, 0, span, set, options);
+                return result{m.complete(), m.end_time(), m.at(m.end_time()), m.spans().size()};
+            };
+            double const usual = width_after(2, by_enclose);
+            for (double const span : {1e-6, 1e6})
+                CHECK(width_after(span, by_enclose) < 1.01 * usual);
+            auto const by_integrate = [&](box const& own, double span) {
+                auto const t = integrate<interval>(f, starts, own, 0, span, options);
+                return result{t.complete(), t.end_time(), t.end().hull, t.steps().size()};
+            };
+            double const own = width_after(2, by_integrate);
+            for (double const span : {1e-6, 1e6})
+                CHECK(width_after(span, by_integrate) < 1.01 * own);
+        }
+    }
 }

@@ -3,6 +3,8 @@
 
 #include "support/catch.hpp"
 
+#include <cmath>
+
 using namespace sivid;
 
 TEST_CASE("an enclosure is cancelled when who is asked says so and never when nobody is") {
@@ -14,4 +16,27 @@ TEST_CASE("an enclosure is cancelled when who is asked says so and never when no
     go = false;
     CHECK(options.cancelled());
     CHECK(enclosure_options{options}.cancelled());
+}
+
+TEST_CASE("steps go with spans that are no ordinary number of units, and only with these") {
+    enclosure_options const asked{.minimum_step = 1e-3, .maximum_step = 0.5};
+    for (double const span : {0.0, 1.0, 30.0, 100.0}) {
+        CHECK(for_span(asked, span).minimum_step == asked.minimum_step);
+        CHECK(for_span(asked, span).maximum_step == asked.maximum_step);
+    }
+    CHECK(for_span(asked, 0x1p-20).minimum_step == asked.minimum_step * 0x1p-20);
+    CHECK(for_span(asked, 0x1p-20).maximum_step == asked.maximum_step);
+    CHECK(for_span(asked, 1e6).minimum_step == asked.minimum_step);
+    CHECK(for_span(asked, 1e6).maximum_step == 1e4 * asked.maximum_step);
+}
+
+TEST_CASE("a method is asked for what its order reaches") {
+    CHECK(for_method({}).tolerance == enclosure_options{}.tolerance);
+    enclosure_options options;
+    options.method = rk4();
+    CHECK(for_method(options).tolerance == std::pow(10.0, -10));
+    options.tolerance = 1e-6;
+    CHECK(for_method(options).tolerance == 1e-6);
+    options.minimum_step = 1e-3;
+    CHECK(for_method(options).minimum_step == 1e-5);
 }

@@ -166,7 +166,63 @@ TEST_CASE("the report's own means are one command, and each set takes each kind 
     CHECK(run({"identify", data, "--out", out, "--set", "second-order"}).code == 2);
     r = run({"identify", data, "--out", out, "--online", "--method", "rk4"});
     CHECK(r.code == 2);
-    CHECK_THAT(r.err, ContainsSubstring("--method"));
+    CHECK_THAT(r.err, ContainsSubstring("--set first-order with --method rk4"));
+    r = run({"identify", data, "--out", out, "--online", "--quiet", "--method", "rk4", "--set",
+             "first-order", "--budget", "5"});
+    CHECK((r.code == 0 || r.code == 3));
+}
+
+TEST_CASE("every command that encloses takes a method and a set, or says what to do instead") {
+    temporary_folder const folder;
+    auto const out = (folder.path() / "out").string(), none = (folder.path() / "none").string();
+    auto const end_of = [&](std::vector<std::string> more) {
+        std::vector<std::string> all{"simulate", "--scenario", "S1",    "--validated",
+                                     "--out",    out,          "--set", "Ff=0.45:0.55"};
+        all.insert(all.end(), more.begin(), more.end());
+        auto const r = run(all);
+        CHECK(r.code == 0);
+        std::ifstream in{fs::path(out) / "S1.tube.csv"};
+        std::string last;
+        for (std::string line; std::getline(in, line);) last = line;
+        CHECK(last.size() > 20);
+        return last;
+    };
+    auto const usual = end_of({});
+    CHECK(usual == end_of({"--method", "taylor", "--set", "taylor-model"}));
+    CHECK(usual != end_of({"--method", "rk4"}));
+    CHECK(usual != end_of({"--set", "first-order"}));
+
+    auto const result = (folder.path() / "h3").string();
+    REQUIRE(run({"identify", h3, "--out", result, "--quiet"}).code == 0);
+    std::string const moves = "always(abs(psi) < 10)";
+    for (std::string const set : {"first-order", "taylor-model"}) {
+        std::vector<std::string> const how{"--quiet", "--budget", "3", "--method",
+                                           "gauss4",  "--set",    set};
+        auto const asked = [&](std::vector<std::string> all) {
+            CAPTURE(all.front(), set);
+            all.insert(all.end(), how.begin(), how.end());
+            auto const r = run(all);
+            CAPTURE(r.err);
+            CHECK((r.code == 0 || r.code == 3));
+        };
+        asked({"predict", result, "--scenario", "S1", "--out", out});
+        asked({"verify", result, "--scenario", "S1", "--require", moves});
+        asked({"control", result, "--scenario", "S1", "--require", moves, "--law", "W = K",
+               "--gain", "K=0:5"});
+        asked({"design", result, "--scenario", "S1", "--halve", "Sv", "--vary", "delta=-0.5:0.5"});
+        asked({"rank", "--scenario", "S1", "--out", out});
+        asked({"diagnose", h3, "--out", out});
+    }
+    CHECK(run({"check", result, "--sample", "2", "--method", "gauss4"}).code != 5);
+    auto const refused = [&](std::vector<std::string> const& all, char const* words) {
+        auto const r = run(all);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring(words));
+        CHECK_FALSE(fs::exists(none));
+    };
+    refused({"check", result, "--set", "first-order"}, "leave it out");
+    refused({"rank", "--out", none, "--method", "rk4"}, "give a data set or --scenario");
+    refused({"predict", result, "--scenario", "S1", "--out", none, "--method", "rk5"}, "--method");
 }
 
 TEST_CASE("a comparison shows Algorithm 1 beside") {

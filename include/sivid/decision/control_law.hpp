@@ -22,7 +22,7 @@ namespace sivid {
 ///                         `end`
 ///   integral(x)           since the begin, by a further state
 /// A state is read as it is; measured(c) is what the sensor of a channel shows, with its error.
-/// @param end  of the motion [s], > 0
+/// @param end  of the motion, in the model's unit of time, > 0
 /// @throws requirement_error  that names the place and the remedy
 SIVID_DECL void command_by(std::string_view text, closed_loop& loop, double end);
 

@@ -25,7 +25,7 @@ struct prediction {
     std::vector<double> times; ///< the grid
     std::vector<predicted_tube> states, channels;
     std::vector<predicted_tube> further; ///< of the expressions that were asked for
-    double reached = 0;                  ///< instants up to here are bounded [s]
+    double reached = 0;                  ///< instants up to here are bounded; time
     bool complete = false;               ///< every instant of the scenario is bounded
     /// The tubes at the instants are at most this much wider, as a share, than what the parameters
     /// and starts of the problem reach themselves; widths below a millionth do not count. Infinite

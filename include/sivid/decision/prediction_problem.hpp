@@ -38,7 +38,7 @@ struct prediction_problem {
     std::vector<box> sets;   ///< their union holds every parameter that counts
     std::vector<signal> inputs;
     box initial;    ///< the states at time 0
-    double end = 0; ///< [s]
+    double end = 0; ///< in the model's unit of time
     /// What measurements say of a box around some of the sets: every parameter that counts meets
     /// all of them for some starts. Its second argument ends runs when it says false; what was
     /// reached holds. May be left out: tubes are narrower with it, and more is decided.

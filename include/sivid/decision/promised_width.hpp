@@ -37,7 +37,11 @@ namespace sivid {
 /// model or all of the other.
 /// @param first, second  with the same inputs and channels, over the same time
 /// @returns `told_apart`, where that is proved
-/// @throws std::invalid_argument
+/// @throws std::invalid_argument  for models of unequal inputs, channels or ends, a plan that
+///   does not fit
+/// @guarantee  where it says `told_apart`, no data within the error bounds are explained by
+///   parameters of both
+/// @cost  one integration of each model, and some milliseconds a pair of parts
 [[nodiscard]] SIVID_DECL promise tell_apart(prediction_problem const& first,
                                             prediction_problem const& second,
                                             planned_measurements const& plan,

@@ -12,7 +12,7 @@ namespace sivid {
 
 /// Reads a requirement and enters what it compares into the graph of `model`.
 ///   Numbers are decimals, read outward; times mean the nearest double.
-/// @param end  of the motion [s], > 0
+/// @param end  of the motion, in the model's unit of time, > 0
 /// @throws requirement_error also for windows that reach beyond the end; any text ends so or in a
 ///         requirement: at most 10 000 characters, nested at most 60 deep
 [[nodiscard]] SIVID_DECL requirement parse_requirement(std::string_view text, recorded_model& model,

@@ -49,7 +49,7 @@ struct open_box {
     box parameters, initial;
     truth found;
     open_reason why = open_reason::undecided;
-    double reached = 0; ///< its motions are enclosed up to here [s]
+    double reached = 0; ///< its motions are enclosed up to this time
 };
 
 /// A requirement over a set of parameters and starts.
@@ -59,7 +59,7 @@ struct verification {
     truth found;
     std::optional<violating_motion> witness; ///< when refuted
     std::vector<open_box> open;              ///< largest first; empty when proved
-    double reached = 0;                      ///< all motions are enclosed up to here [s]
+    double reached = 0;                      ///< all motions are enclosed up to this time
     std::vector<double> times;               ///< the last grid
     std::size_t parts = 0, integrations = 0;
     double seconds = 0;

@@ -80,6 +80,9 @@ struct diagnosis_run {
 /// Where the model itself is the closest candidate, it alone is judged.
 /// @param seconds, boxes  what all of it may spend, see `step_effort`
 /// @throws std::invalid_argument  for hold-out experiments that do not fit the model
+/// @guarantee  inflations are proved bounds for the hold-out data; misfits of the fits are no more
+///   than measured. Nothing else of the diagnosis changes
+/// @cost  a search for the inflation of each of the two, at most `seconds`
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
                                  data_test_options const& test = {}, std::size_t boxes = 120);
 

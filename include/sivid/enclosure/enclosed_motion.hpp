@@ -20,7 +20,7 @@ class tube;
 
 /// What is proved of all states throughout one step.
 struct swept_span {
-    double from = 0, to = 0; ///< [s]
+    double from = 0, to = 0; ///< in the model's unit of time
     box states;              ///< contains all of them at all times in [from, to]
 };
 
@@ -42,6 +42,7 @@ public:
     /// shorter span that can be proved.
     /// @throws std::invalid_argument  for boxes of other sizes, empty or unbounded, or a span that
     ///                                ends before it begins
+    /// @param from, to  in the model's unit of time; steps are relative to the span (`for_span`)
     /// @cost  one integration
     enclosed_motion(std::shared_ptr<flow const> f, box const& initial, box const& parameters,
                     double from, double to, enclosure_options const& options = {});

@@ -131,10 +131,10 @@ struct domain_edge {
 /// A failure to enclose, as a value: what is proved up to `time` stays proved.
 struct enclosure_failure {
     failure_reason reason = failure_reason::minimum_step;
-    double time = 0;           ///< the enclosure reaches this time [s]
+    double time = 0;           ///< the enclosure reaches this time, in the model's unit of time
     std::size_t component = 0; ///< the state that stopped it, or in whose rate the reason lies
     advice help = advice::smaller_box;
-    /// Where the last step that was tried was to end [s]; not after `time` if none was.
+    /// Where the last step that was tried was to end, in that unit; not after `time` if none was.
     double until = -std::numeric_limits<double>::infinity();
     /// Half-widths of the state at `time`: as a function of the unknowns, and what was lost
     /// besides.
@@ -157,7 +157,8 @@ struct remedy_trial {
     advice remedy = advice::smaller_box;
     double share = 1; ///< width of the parts that were tried, of the box's
     enclosure_options options;
-    double reached = 0; ///< [s]; of parts by the one that is hardest, as far as halving finds it
+    /// In the model's unit of time; of parts by the hardest one, as far as halving finds it.
+    double reached = 0;
     bool further = false;
 };
 

@@ -4,6 +4,8 @@
 
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -30,8 +32,9 @@ struct enclosure_options {
     double tolerance = 1e-13;
     double relative_tolerance = 1e-4;
     /// Steps are never shorter than this, except where an input's knot or the end is closer, or a
-    /// kink is crossed. Here and below in the unit of time of the model. Runs of experiments
-    /// (`run_options`) scale both for records that last less than one unit, or more than a hundred.
+    /// kink is crossed. This and the largest step are in the unit of time of the model, for spans
+    /// of one to a hundred units. Whatever knows its span takes both relative to it where it is
+    /// shorter or longer (`for_span`), so that a model may count in microseconds or days.
     double minimum_step = 1e-7;
     double maximum_step = 1.0;
     std::size_t maximum_steps = 1'000'000;
@@ -46,6 +49,25 @@ struct enclosure_options {
 
     [[nodiscard]] bool cancelled() const { return keep_going && !keep_going(); }
 };
+
+/// The steps of a span of time: of a span of less than one unit the smallest step is as much
+/// shorter, of more than a hundred the largest as much longer.
+/// @param span  in the unit of time of the model
+[[nodiscard]] inline enclosure_options for_span(enclosure_options options, double span) {
+    if (span > 0) options.minimum_step *= std::min(1.0, span);
+    options.maximum_step *= std::max(1.0, span / 100);
+    return options;
+}
+
+/// What a Runge-Kutta `method` of order p can reach in steps that are worth taking: a tolerance of
+/// at least \f$ 10^{-2-2p} \f$. Without a method the options as they are.
+[[nodiscard]] inline enclosure_options for_method(enclosure_options options) {
+    if (!options.method) return options;
+    double const order = static_cast<double>(options.method->order);
+    options.tolerance = std::max(options.tolerance, std::pow(10.0, -2 - 2 * order));
+    options.minimum_step = std::min(options.minimum_step, 1e-5);
+    return options;
+}
 
 } // namespace sivid
 

@@ -115,17 +115,26 @@ private:
     std::optional<enclosure_failure> failure_;
 };
 
-/// Encloses x' = f(t, x, p, u) from the box `initial` at time `from` to time `to`.
+/// Encloses x' = f(t, x, p, u) from the box `initial` at time `from` to time `to`, in steps
+/// relative to that span (`for_span`).
 /// @param parameters  a box for the unknown constants
+/// @param from, to    in the unit of time of the model
 /// @returns a tube over [from, to], or over the shorter span that was proved, with its failure
+/// @throws std::invalid_argument  for boxes of other sizes, empty or unbounded, or a span that
+///   ends before it begins
+/// @guarantee  every trajectory from the box of starts, for every parameter in its box and inputs
+///   within their error bounds, lies in what the tube says of any time of its span
+/// @cost  a step: a Taylor series of order `options.order` (or the method), one of its derivatives,
+///   and products of n x n matrices
 template <class I = interval>
 [[nodiscard]] tube<I> integrate(std::shared_ptr<flow const> f, basic_box<I> const& initial,
                                 basic_box<I> const& parameters, double from, double to,
                                 enclosure_options const& options = {}) {
     if (!(from <= to)) throw std::invalid_argument("integrate: the end lies before the begin");
-    trajectory<I> run(*f, options);
+    auto const how = for_span(options, to - from);
+    trajectory<I> run(*f, how);
     run.begin(from, initial, parameters);
-    tube<I> result(f, options, run.ensemble(), run.set());
+    tube<I> result(f, how, run.ensemble(), run.set());
     while (run.time() < to) {
         if (!run.step(to)) {
             result.stop(*run.failure());

@@ -88,7 +88,7 @@ public:
 
     /// The law is computed from samples that are at most `period` apart, each of which acts at most
     /// `delay` after it was taken, and is held until the next one does; before the first the
-    /// command is what the law says at the begin. [s]
+    /// command is what the law says at the begin. Both in the model's unit of time.
     ///   With |d/dt law(x(t))| <= s along the motion what acts differs from what the law says at
     ///   the
     /// same instant by at most (period + delay) s: an error of the input, of which the closed model
@@ -124,7 +124,7 @@ private:
     std::map<std::size_t, node_id> commands_; ///< by input
     std::map<std::size_t, double> bounds_;    ///< of sensors, by channel
     std::map<std::size_t, double> slews_;     ///< limits, by input
-    double age_ = 0;                          ///< of a sample that acts, at most [s]
+    double age_ = 0;                          ///< of a sample that acts, at most; time
     std::map<std::size_t, expression> shown_; ///< by channel
 };
 

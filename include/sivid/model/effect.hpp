@@ -88,11 +88,12 @@ struct effect {
     /// The experiments in which it acts, others do not see it; none: it acts in all. Such an effect
     /// has a switch, an input of its name that is 1 where it acts and else 0.
     std::vector<std::string> only_in{};
-    /// When it begins in each of these [s], from then on it acts; none: at their start. What it
-    /// remembers (behind a delay, a play, a rate limit, or in a state of its own) goes on from
-    /// start to end, and is seen while it acts; a channel is late at the times at which it acts.
+    /// When it begins in each of these, in the model's unit of time, from then on it acts; none: at
+    /// their start. What it remembers (behind a delay, a play, a rate limit, or in a state of its
+    /// own) goes on from start to end, and is seen while it acts; a channel is late at the times at
+    /// which it acts.
     std::vector<double> since{};
-    /// When it ends in each of these [s], from then on it does not act; none: never.
+    /// When it ends in each of these, in that unit, from then on it does not act; none: never.
     std::vector<double> until{};
 
     /// Whether it acts in an experiment, at least for some time.
@@ -205,8 +206,9 @@ private:
 
 /// The effect in these experiments only, under its name and "@S4+S5"; "@S4>=1.5<4+S5" where it
 /// begins in S4 at 1.5 s and ends there at 4 s.
-/// @param since  for each of them, `effect::from_start` or a time [s]; none: all from the start
-/// @param until  for each of them, `effect::for_ever` or a time [s]; none: none ends
+/// @param since  for each of them, in the model's unit of time, or `effect::from_start`; none: all
+///   from the start
+/// @param until  for each of them, in that unit, or `effect::for_ever`; none: none ends
 [[nodiscard]] SIVID_DECL effect only_within(effect e, std::vector<std::string> experiments,
                                             std::vector<double> since = {},
                                             std::vector<double> until = {});

@@ -27,7 +27,7 @@ struct manoeuvre_setting {
 /// Something the robot can be told to do: inputs over a duration, perhaps with a few settings.
 struct manoeuvre {
     std::string name;
-    double duration = 1;                     ///< [s]
+    double duration = 1;                     ///< in the model's unit of time
     std::vector<double> start;               ///< the states at its begin
     std::vector<manoeuvre_setting> settings; ///< none: a fixed manoeuvre
     std::function<std::vector<signal>(std::vector<double> const&)> inputs;

@@ -226,10 +226,12 @@ struct model_description {
 };
 
 enum class memory_kind {
-    delay, ///< by so much time [s]
+    delay, ///< by so much time, in the model's unit
     play,  ///< of this half-width, in the unit of the input (see measurement/played_signal.hpp)
-    rate_limit, ///< of this size, in that unit per second (see measurement/limited_signal.hpp)
-    drift       ///< of the clock: a delay by this share of the time since the begin
+    /// Of this size, in that unit per the model's unit of time (see
+    /// measurement/limited_signal.hpp).
+    rate_limit,
+    drift ///< of the clock: a delay by this share of the time since the begin
 };
 
 /// Whether it moves a signal in time and changes nothing else.

@@ -91,9 +91,11 @@ private:
 /// Identification by the report's Algorithms 1 and 2 - integrate, compare, bisect - in any interval
 /// type: `identify_by_bisection<mp_interval>(problem)`. `identify` answers the same question by
 /// contraction, by orders of magnitude faster.
-/// @guarantee  as `invert` with a `bisection_test`; `proved_verdict` of the paving is the answer
 /// @param search  the boxes are taken in their order (`search_order::first_in`) whatever it says
 /// @throws std::invalid_argument  for a problem that is not one
+/// @guarantee  as `invert` with a `bisection_test`; `proved_verdict` of the paving is the answer
+/// @cost  for each box one integration of each experiment until one excludes it; of n parameters
+///   about (1 / accuracy)^(n - 1) boxes, those at the boundary of what explains the data
 template <interval_scalar I = interval>
 [[nodiscard]] inversion identify_by_bisection(
     identification_problem const& problem, inversion_options search = {},

@@ -15,6 +15,10 @@
 namespace sivid::report {
 
 /// The whole page of a diagnosis. Sections without content are left out.
+/// @throws nothing of its own
+/// @guarantee  it proves nothing and reads no data: numbers are those of the view, bounds rounded
+///   outward
+/// @cost  text and pictures of the size of the view: milliseconds
 [[nodiscard]] SIVID_DECL page diagnosis_page(diagnosis_view const& v);
 
 } // namespace sivid::report

@@ -10,6 +10,8 @@
 #include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -18,11 +20,13 @@ namespace sivid {
 
 namespace enclosure_detail {
 
-/// A family by Taylor models. What it says of a time between steps is a run of its own, which ends
-/// a step there: as tight as at the ends of steps, at the cost of integrating so far.
+/// A family by Taylor models. Sets are kept on the way. What is said of a time between them is a
+/// short run of its own from the one before, which ends there: as tight as at the ends of steps.
 /// @tparam Run  `parametric_flow<>` or `parametric_runge_kutta<>`
 template <class Run>
 class taylor_motion final : public motion_between_spans {
+    using set_type = typename Run::set_type;
+
 public:
     taylor_motion(std::shared_ptr<flow const> f, box initial, box parameters, double from,
                   enclosure_options const& options)
@@ -35,52 +39,86 @@ public:
     [[nodiscard]] static enclosed_motion run(std::shared_ptr<flow const> f, box const& initial,
                                              box const& parameters, double from, double to,
                                              enclosure_options const& options) {
-        auto const motion = std::make_shared<taylor_motion>(f, initial, parameters, from, options);
+        auto const motion = std::make_shared<taylor_motion>(f, initial, parameters, from,
+                                                            for_span(options, to - from));
         auto run = motion->begin();
         while (run->time() < to) {
+            if (motion->spans_.size() % every == 0) motion->kept_.push_back(run->set());
             double const before = run->time();
             if (!run->step(to)) break;
             motion->spans_.push_back({before, run->time(), run->swept()});
         }
-        motion->end_ = run->time();
+        motion->last_ = run->set();
         return {motion, motion->spans_, run->time(), run->failure()};
     }
 
     [[nodiscard]] box at(double t) const override {
-        if (!(t >= from_ && t <= end_))
-            throw std::out_of_range("enclosed_motion: time outside the proved span");
-        auto run = begin();
-        while (run->time() < t) {
-            if (!run->step(t)) return swept_at(t); // proved by other steps
-        }
-        auto const own = run->set().hull();
-        return t == from_ ? own : intersect(own, swept_at(t));
+        auto const& set = kept_before(t);
+        auto const run = set.time < t ? run_to(t) : nullptr;
+        if (spans_.empty()) return set.hull();
+        auto const& states = swept_at(t);
+        if (set.time < t && !run) return states;
+        return intersect((run ? run->set() : set).hull(), states);
     }
     [[nodiscard]] box observe_at(double t) const override {
         ensemble<interval> const family(initial_, parameters_);
         observer<interval> look(*flow_);
         look.set_ensemble(family);
-        return look.over(t, interval(t), at(t));
+        auto seen = look.over(t, interval(t), at(t));
+        if constexpr (requires(Run & r) { r.outputs(); }) {
+            auto const run = run_to(t);
+            if (!run) return seen;
+            auto const outputs = run->outputs(); // as functions of the unknowns
+            for (std::size_t y = 0; y < seen.size(); ++y) {
+                if (std::isfinite(outputs[y].norm()))
+                    seen[y] = intersect(seen[y], range(outputs[y]));
+            }
+        }
+        return seen;
     }
 
 private:
+    /// Steps from one set that is kept to the next: copies take less time than a tenth of a step.
+    static constexpr std::size_t every = 4;
+
     [[nodiscard]] std::unique_ptr<Run> begin() const {
         auto const unknowns = normalised_unknowns(initial_, parameters_).variables;
         auto run = std::make_unique<Run>(*flow_, options_, unknowns, suggested_degree(unknowns));
         run->begin(from_, initial_, parameters_);
         return run;
     }
-    [[nodiscard]] box swept_at(double t) const {
-        auto const span = std::find_if(spans_.begin(), spans_.end(),
-                                       [t](swept_span const& s) { return t <= s.to; });
-        return span->states;
+    /// A run at time t; nothing where no other steps than those that were made are proved.
+    [[nodiscard]] std::unique_ptr<Run> run_to(double t) const {
+        auto run = begin();
+        run->resume(kept_before(t));
+        while (run->time() < t) {
+            if (!run->step(t)) return nullptr;
+        }
+        return run;
+    }
+    /// The last set that is kept, at t or before.
+    [[nodiscard]] set_type const& kept_before(double t) const {
+        if (!(t >= from_ && t <= last_.time))
+            throw std::out_of_range("enclosed_motion: time outside the proved span");
+        if (t == last_.time) return last_;
+        auto const next =
+            std::upper_bound(spans_.begin(), spans_.end(), t,
+                             [](double time, swept_span const& s) { return time < s.to; });
+        return kept_[static_cast<std::size_t>(next - spans_.begin()) / every];
+    }
+    [[nodiscard]] box const& swept_at(double t) const {
+        return std::lower_bound(spans_.begin(), spans_.end(), t,
+                                [](swept_span const& s, double time) { return s.to < time; })
+            ->states;
     }
 
     std::shared_ptr<flow const> flow_;
     box initial_, parameters_;
-    double from_, end_ = 0;
+    double from_;
     enclosure_options options_;
     std::vector<swept_span> spans_;
+    std::vector<set_type> kept_; ///< before each step that is a multiple of `every`
+    set_type last_;
 };
 
 } // namespace enclosure_detail
@@ -99,6 +137,14 @@ SIVID_DECL enclosed_motion enclose(std::shared_ptr<flow const> f, box const& ini
     }
     return taylor_motion<parametric_flow<>>::run(std::move(f), initial, parameters, from, to,
                                                  options);
+}
+
+SIVID_DECL enclosed_motion enclose(recorded_model const& model, parameter_choice const& choice,
+                                   box const& initial, box const& parameters, double from,
+                                   double to, carried_set set, enclosure_options const& options,
+                                   std::vector<signal> const& inputs) {
+    return enclose(std::make_shared<flow const>(model, choice, inputs), initial, parameters, from,
+                   to, set, for_method(options));
 }
 
 } // namespace sivid

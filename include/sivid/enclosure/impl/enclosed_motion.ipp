@@ -48,7 +48,8 @@ SIVID_DECL tube<interval> const& enclosed_motion::steps() const {
 SIVID_DECL std::optional<advised_failure>
 explain_enclosed_motion(flow const& f, box const& initial, box const& parameters, double from,
                         double to, enclosure_options const& options) {
-    return explain_failure<trajectory<interval>>(f, options, initial, parameters, from, to);
+    return explain_failure<trajectory<interval>>(f, for_span(options, to - from), initial,
+                                                 parameters, from, to);
 }
 
 } // namespace sivid

@@ -146,9 +146,10 @@ integrate_with_sensitivities(std::shared_ptr<flow const> f, basic_box<I> const& 
         throw std::invalid_argument("integrate_with_sensitivities: inputs with error bounds are "
                                     "not supported; give signals without bounds");
     }
-    trajectory<I> run(*f, options);
+    auto const how = for_span(options, to - from);
+    trajectory<I> run(*f, how);
     run.begin(from, initial, parameters);
-    tube<I> states(f, options, run.ensemble(), run.set());
+    tube<I> states(f, how, run.ensemble(), run.set());
     std::vector<std::optional<derivative_set<I>>> derivatives{
         derivative_set<I>(f->states(), f->parameters())};
     while (run.time() < to) {

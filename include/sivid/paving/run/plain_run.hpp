@@ -36,12 +36,13 @@ class plain_run {
     using traits = interval_traits<I>;
 
 public:
+    /// @param options  their steps are relative to what the experiment lasts (`for_span`)
     plain_run(recorded_model const& model, parameter_choice const& choice, experiment const& e,
               enclosure_options const& options)
         : flow_(std::make_unique<flow>(model, choice, e.inputs)),
           samples_(sorted(e.measurements)),
           begin_(e.begin),
-          run_(std::make_unique<trajectory<I>>(*flow_, options)),
+          run_(std::make_unique<trajectory<I>>(*flow_, for_span(options, e.end() - e.begin))),
           look_(std::make_unique<observer<I>>(*flow_)) {}
 
     [[nodiscard]] record const& samples() const { return samples_; }

@@ -15,7 +15,7 @@ namespace sivid {
 
 /// What an experiment will measure.
 struct planned_measurements {
-    std::vector<double> times;  ///< within the experiment [s]
+    std::vector<double> times;  ///< within the experiment, in its unit
     std::vector<double> errors; ///< bound of the errors of each channel; 0: it is not measured
 
     /// Every `period` seconds, the end included.
@@ -57,7 +57,7 @@ struct promised_width {
 
 struct promise {
     std::vector<promised_width> goals;
-    double reached = 0; ///< all motions are enclosed up to here [s]; later data promise nothing
+    double reached = 0; ///< all motions are enclosed up to this time; later data promise nothing
     /// Of two models: no parameter of the one and of the other explain the same data.
     bool told_apart = false;
     std::size_t pairs = 0, integrations = 0;

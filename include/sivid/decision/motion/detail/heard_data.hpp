@@ -61,7 +61,7 @@ private:
     std::vector<bool> unmeasured_;
     std::map<std::vector<double>, bool> said_;
     clock::time_point begun_ = clock::now();
-    double heard_ = 0; ///< [s]
+    double heard_ = 0; ///< time
 };
 
 } // namespace sivid::decision_detail

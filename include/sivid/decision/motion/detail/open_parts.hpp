@@ -27,7 +27,7 @@ public:
         bool settled = false; ///< no half gets further
         int violations = 0;   ///< how often the contrary was found of it, or what it is a half of
         int halvings = 0;     ///< that led to it
-        double before = -1;   ///< how far what it is a half of was carried [s]
+        double before = -1;   ///< how far what it is a half of was carried; time
     };
 
     /// @param roughly  see `judged_motions::judge`

@@ -15,7 +15,7 @@ struct violating_motion {
     std::vector<double> parameters; ///< sides of `feasible_points::direct`
     std::vector<double> start;
     truth found;     ///< of this motion, enclosed anew
-    double time = 0; ///< an instant at which the robustness is decided [s]
+    double time = 0; ///< an instant at which the robustness is decided
 };
 
 /// Where parameters come from that are proved to be possible: what a refutation needs.

@@ -109,6 +109,13 @@ public:
     void begin(double time, box const& initial, box const& parameters) {
         begin(0, time, initial, parameters);
     }
+    /// Goes on from what `set()` was at some step of the same family.
+    /// @given  `begin` for that family (trusted)
+    void resume(set_type const& set) requires(width == 1) {
+        set_ = set;
+        flow_order_ = std::max<std::size_t>(flow_order_, options_.order / 2); // one step is all
+        stale_ = true;
+    }
     /// Ends the family of a lane.
     void end(std::size_t lane) { running_ = running_ & !side_by_side::only(lane); }
 

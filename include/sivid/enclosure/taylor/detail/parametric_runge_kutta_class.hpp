@@ -74,6 +74,10 @@ public:
     /// @given  the unknowns have at most as many variables as the flow (checked)
     void begin(double time, box const& initial, box const& parameters);
 
+    /// Goes on from what `set()` was at some step of the same family.
+    /// @given  `begin` for that family (trusted)
+    void resume(set_type const& set) { set_ = set; }
+
     /// One proved step, at most to `limit`.
     /// @throws std::invalid_argument when `limit` is not later than `time()`
     [[nodiscard]] bool step(double limit);

@@ -20,7 +20,7 @@ namespace sivid {
 ///   p is an input in place of w, and U one of which a bound is known: the largest |U| in each
 ///   period, from the samples. It shrinks with the square of the time for which inputs are held,
 ///   and with the third power of the period where they are smooth.
-/// @param period  between two knots [s], > 0; inputs with fewer than four knots in one, on the
+/// @param period  between two knots, > 0; inputs with fewer than four knots in one, on the
 ///                average over an experiment, stay as they are
 /// @returns nothing where no input is that fast, or one is not exact, enters a channel or the rates
 ///          otherwise than said (by a kink or a jump, too), or is delayed

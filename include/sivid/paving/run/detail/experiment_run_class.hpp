@@ -71,17 +71,14 @@ namespace paving_detail {
     return unknowns > 0 && options.degree > 0 ? options.degree : suggested_degree(unknowns);
 }
 
-/// The steps of an experiment. Options speak of records of one to a hundred units of time: the
-/// smallest step of a shorter record, and the largest of a longer one, go with what it lasts, so
-/// that a model may count in microseconds or days.
+/// The steps of an experiment, relative to what it lasts (`for_span`).
 ///   A smallest step that is not much shorter than the pieces of an input ends runs that only have
 /// to start gently after each knot: then every piece may take 500 steps. Samples that nearly
 /// coincide do not count.
 [[nodiscard]] inline enclosure_options steps_for(experiment const& e, enclosure_options options) {
     double const lasts = e.end() - e.begin;
     double const unit = lasts > 0 ? std::min(1.0, lasts) : 1.0;
-    options.minimum_step *= unit;
-    options.maximum_step = std::max(options.maximum_step, lasts / 100);
+    options = for_span(std::move(options), lasts);
     double shortest = detail::infinity;
     for (auto const& input : e.inputs) {
         auto const* u = std::get_if<sampled_signal>(&input);
