@@ -30,11 +30,11 @@
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/named_effects.hpp>
 #include <sivid/number/text/sha256.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/verifier/predict_from.hpp>
 #include <sivid/version.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cmath>

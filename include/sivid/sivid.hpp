@@ -191,7 +191,6 @@
 #include <sivid/paving/static_problem.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/decision/control_law.hpp>
 #include <sivid/decision/experiment_design.hpp>
 #include <sivid/decision/gain_search.hpp>
@@ -220,6 +219,7 @@
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/executor.hpp>
 #include <sivid/version.hpp>
+#include <sivid/work_limit.hpp>
 // clang-format on
 
 #endif // SIVID_SIVID_HPP

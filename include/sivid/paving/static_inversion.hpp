@@ -7,9 +7,9 @@
 #include <sivid/paving/static/flat_paving.hpp>
 #include <sivid/paving/static/static_judge.hpp>
 #include <sivid/paving/static/static_survey.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -64,15 +64,12 @@ public:
     [[nodiscard]] flat_paving operator()() {
         require_sound_environment();
         require_pack_support();
-        auto const begin = std::chrono::steady_clock::now();
-        auto const seconds = [&] {
-            return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        };
+        stopwatch const clock;
         prepare();
         while (!blocks_.empty() || !boxes_.empty()) {
             if (options_.keep_going && !options_.keep_going()) {
                 stop(stop_reason::cancelled);
-            } else if (seconds() > options_.seconds) {
+            } else if (clock.spent() > options_.seconds) {
                 stop(stop_reason::time_budget);
             } else if (result_.tested >= options_.boxes) {
                 stop(stop_reason::box_budget);
@@ -84,7 +81,7 @@ public:
             }
         }
         result_.asked = judge_.asked() + survey_.asked();
-        result_.seconds = seconds();
+        result_.seconds = clock.spent();
         return std::move(result_);
     }
 
@@ -386,7 +383,8 @@ private:
 /// as many as may be outliers.
 /// @throws std::invalid_argument  for a problem that does not fit together (it names what)
 /// @throws unsound_environment    where interval arithmetic would prove nothing (`guard.hpp`)
-/// @guarantee  the boxes and what is excluded cover the prior; inside boxes satisfy the measurements
+/// @guarantee  the boxes and what is excluded cover the prior; inside boxes satisfy the
+/// measurements
 ///             throughout, `hull` contains every parameter that does
 /// @cost  time and memory linear in the measurements, times the boxes; eight boxes or eight
 ///        measurements at a time

@@ -8,10 +8,9 @@
 #include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -45,7 +44,7 @@ public:
     }
 
     [[nodiscard]] prediction operator()() {
-        auto const begun = std::chrono::steady_clock::now();
+        stopwatch const clock;
         parts_.push_back({cover_->whole(), {}});
         learn({&parts_.front()});
         if (many()) ask_data();
@@ -63,8 +62,7 @@ public:
         collect(result);
         result.parts = parts_.size();
         result.integrations = cover_->integrations();
-        result.seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        result.seconds = clock.spent();
         return result;
     }
 

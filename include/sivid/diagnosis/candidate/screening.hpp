@@ -12,9 +12,9 @@
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -229,7 +229,6 @@ public:
     }
 
 private:
-    using clock = std::chrono::steady_clock;
     static constexpr std::size_t most_joined = 3; ///< sets that further effects join
 
     [[nodiscard]] effect_sets singles() const {
@@ -316,7 +315,7 @@ private:
     }
     /// For any thread.
     [[nodiscard]] bool in_time() const {
-        return seconds() < options_.seconds && (!options_.go_on || options_.go_on());
+        return clock_.spent() < options_.seconds && (!options_.go_on || options_.go_on());
     }
     static void take_figures(screened& s) {
         s.figures.inflation = s.fit.inflation;
@@ -380,9 +379,6 @@ private:
             if (result.size() < most) result.push_back(s->figures.effects);
         return result;
     }
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(clock::now() - begin_).count();
-    }
 
     identification_problem base_;
     std::vector<effect> catalogue_;
@@ -392,7 +388,7 @@ private:
     impossible_sets impossible_;
     std::size_t measurements_ = 0;
     bool stopped_ = false; ///< changed by one thread at a time
-    clock::time_point begin_ = clock::now();
+    stopwatch clock_;
 };
 
 } // namespace sivid

@@ -7,7 +7,7 @@
 #include <sivid/number/rounding.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/response/detail/difference_response.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cmath>

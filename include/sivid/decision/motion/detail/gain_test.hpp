@@ -10,7 +10,7 @@
 #include <sivid/decision/motion/detail/witness_search.hpp>
 #include <sivid/decision/prediction_options.hpp>
 #include <sivid/paving/set_test.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cstddef>
