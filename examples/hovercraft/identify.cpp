@@ -11,6 +11,7 @@
 
 #ifdef SIVID_HAS_MPI
 #include <sivid/cluster/identify.hpp>
+#include <sivid/number/text/joined.hpp>
 #endif
 #include <sivid/diagnosis/identify_remembering.hpp>
 #include <sivid/io/checkpoint.hpp>
@@ -78,7 +79,7 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
         (stands ? combined : idle).push_back(problem.choice.unknown[j]);
     }
     if (!combined.empty())
-        std::cout << "  " << report::detail::joined(combined)
+        std::cout << "  " << sivid::enumeration(combined)
                   << " are only known through such combinations on these data\n";
     for (auto const& name : idle)
         std::cout << "  " << name << " stands nowhere in the equations of these data\n";

@@ -29,6 +29,7 @@
 #include <sivid/number/rounding.hpp>
 #include <sivid/number/stream.hpp>
 #include <sivid/number/taylor_model.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/number/traits_by_bounds.hpp>

@@ -12,6 +12,7 @@
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -304,9 +305,9 @@ private:
     }
 
     [[nodiscard]] std::string name_of(std::vector<std::size_t> const& effects) const {
-        std::string name;
-        for (auto const e : effects) name += (name.empty() ? "" : " + ") + catalogue_[e].name;
-        return name.empty() ? "the model itself" : name;
+        return effects.empty()
+                   ? "the model itself"
+                   : sivid::joined(effects, " + ", [this](auto e) { return catalogue_[e].name; });
     }
     [[nodiscard]] bool may_try(std::string const& name, std::mutex& asking) {
         std::lock_guard const alone(asking);
