@@ -114,6 +114,13 @@ public:
         }
         advance(program_->principal_varying(), program_->varying().size(), k, state, input);
     }
+    /// The values of everything at a time, where the states are x.
+    template <class States, class Input>
+    void evaluate(T const& t, States const& x, Input const& input) {
+        start(t);
+        advance(
+            0, [&x](std::size_t i, std::size_t) -> decltype(auto) { return x[i]; }, input);
+    }
 
 private:
     using storage = model_detail::storage_of<T>;
