@@ -127,7 +127,6 @@ public:
     [[nodiscard]] std::size_t integrations() const {
         return pool_->integrations() + (recorded_pool_ ? recorded_pool_->integrations() : 0);
     }
-    [[nodiscard]] std::shared_ptr<flow const> flow_of(std::size_t e) const { return flows_[e]; }
     /// In the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
 

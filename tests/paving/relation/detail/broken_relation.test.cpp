@@ -150,15 +150,19 @@ TEST_CASE("what is missing is enclosed over time") {
     box const prior{between(3.99, 4.01), between(0.49, 0.51), between(0.99, 1.01)};
     auto const problem = plant(d, truth, pendulum(), prior, p);
     relation_examiner examiner(problem);
-    auto const series = examiner.missing_over_time(1, 1);
-    CHECK(series.size() > 40);
-    for (auto const& m : series) {
-        CHECK(contains(m.value, 1));
-        CHECK(width(m.value) < 1);
-        CHECK(m.window.to - m.window.from >= 1 - 1e-6);
-        CHECK(m.window.to - m.window.from <= 1.21);
+    relation_windows windows(problem, relation_options{});
+    REQUIRE(windows.obstacle(1).empty());
+    auto const all = windows.all(1, window_way::direct);
+    CHECK(all.size() > 40);
+    for (auto const& w : all) {
+        relation_window const at{windows.motion(w.motion).name, w.from, w.to};
+        auto const missing = examiner.missing_over(1, at);
+        REQUIRE(missing);
+        CHECK(contains(*missing, 1));
+        if (w.to - w.from > 1) CHECK(width(*missing) < 1);
+        auto const none = examiner.missing_over(0, at);
+        if (none) CHECK(contains(*none, 0));
     }
-    for (auto const& m : examiner.missing_over_time(0, 1)) CHECK(contains(m.value, 0));
     auto const finding = examiner.examine(1);
     CHECK(finding.proved);
     REQUIRE(finding.missing);
@@ -191,7 +195,7 @@ TEST_CASE("outlier budgets leave nothing to prove") {
     for (auto const& f : examine_relations(problem))
         CHECK_THAT(f.reason, ContainsSubstring("outlier"));
     relation_examiner examiner(problem);
-    CHECK(examiner.missing_over_time(1, 1).empty());
+    CHECK_FALSE(examiner.missing_over(1, {problem.experiments[0].name, 0, 1}));
 }
 
 namespace {

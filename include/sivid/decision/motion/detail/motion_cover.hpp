@@ -53,7 +53,6 @@ public:
         std::vector<double> low, high, rest;
         std::vector<double> slope;     ///< [variable][instant * outputs + output]
         std::vector<double> curvature; ///< [variable]: its share in all rests
-        double radius_share = 0;       ///< the largest share of a rest that no split takes away
     };
 
     /// @param outputs  states first

@@ -60,28 +60,6 @@ public:
         return result;
     }
 
-    /// The rate that equation i lacks on the average over windows of about this length, one after
-    /// the other at every sample, certified over the whole prior.
-    [[nodiscard]] std::vector<missing_rate> missing_over_time(std::size_t i, double length) {
-        std::vector<missing_rate> result;
-        if (!windows_.obstacle(i).empty()) return result;
-        for (auto const way : windows_.ways(i)) {
-            for (auto const& w : windows_.of_length(i, way, length)) {
-                auto const found = missing(i, w);
-                auto const same = [&found](missing_rate const& other) {
-                    return other.window == found.window;
-                };
-                auto const at = std::find_if(result.begin(), result.end(), same);
-                if (at == result.end()) {
-                    result.push_back(found);
-                } else if (auto const both = intersect(at->value, found.value); !is_empty(both)) {
-                    at->value = both;
-                }
-            }
-        }
-        return result;
-    }
-
     /// The rate that equation i lacks on the average over one window, as far as it is covered.
     [[nodiscard]] std::optional<interval> missing_over(std::size_t i, relation_window const& at) {
         std::optional<interval> result;

@@ -151,15 +151,6 @@ public:
         }
         return result;
     }
-    /// The windows of about one length.
-    [[nodiscard]] std::vector<window_row> of_length(std::size_t i, window_way way, double length) {
-        auto result = windows(i, way, length, 1.2 * length);
-        auto const same_begin = [](window_row const& a, window_row const& b) {
-            return a.motion == b.motion && !(a.from < b.from);
-        };
-        result.erase(std::unique(result.begin(), result.end(), same_begin), result.end());
-        return result;
-    }
 
     /// Equation i over one window; nothing where its ends are no boundaries of the cells, or it is
     /// not covered.
