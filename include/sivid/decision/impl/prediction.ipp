@@ -130,11 +130,9 @@ private:
             for (auto* i : short_of) {
                 // A hundred-thousandth of the whole that gets no further will not by halving.
                 bool const tiny = cover_->widest_share(i->what) < 1e-5;
-                auto const side = motion_cover::most(cover_->moved_by_sides(i->what, i->seen));
-                auto const halves =
-                    replace(i, tiny                         ? std::vector<motion_cover::part>{}
-                               : side == motion_cover::none ? cover_->split(i->what)
-                                                            : cover_->split(i->what, side));
+                auto const moved = cover_->moved_by_sides(i->what, i->seen);
+                auto const halves = replace(i, tiny ? std::vector<motion_cover::part>{}
+                                                    : cover_->split_by(moved, i->what));
                 if (halves.empty()) i->settled = true;
                 next.insert(next.end(), halves.begin(), halves.end());
             }
@@ -197,9 +195,7 @@ private:
             if (taken == cover_->at_once() || heavy < 0.05 * found.holders.front().first) break;
             ++taken;
             bool const worn = lost_share(*i) > 0.4;
-            auto const side = motion_cover::most(cover_->curved_by_sides(i->what, i->seen));
-            auto halves =
-                side == motion_cover::none ? cover_->split(i->what) : cover_->split(i->what, side);
+            auto halves = cover_->split_by(cover_->curved_by_sides(i->what, i->seen), i->what);
             if (halves.empty()) {
                 i->settled = true;
                 continue;

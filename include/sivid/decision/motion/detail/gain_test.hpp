@@ -192,9 +192,7 @@ public:
             std::vector<motion_cover::part> parts;
             for (auto k = first; k < last; ++k)
                 parts.push_back(cover.within(cover.whole(), problem_.parameters(gains[k])));
-            std::vector<motion_cover::part*> several;
-            for (auto& p : parts) several.push_back(&p);
-            cover.learn(several);
+            cover.learn(parts);
             for (auto const& p : parts) result.push_back(motions_->judge(p).found);
         }
         return result;
