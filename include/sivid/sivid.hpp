@@ -197,7 +197,6 @@
 #include <sivid/decision/gain_search.hpp>
 #include <sivid/decision/measurement_ranking.hpp>
 #include <sivid/decision/prediction.hpp>
-#include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/decision/promised_width.hpp>
 #include <sivid/decision/rank.hpp>

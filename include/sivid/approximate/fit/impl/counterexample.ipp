@@ -6,7 +6,6 @@
 
 #include <sivid/approximate/fit/detail/campaign.hpp>
 #include <sivid/approximate/fit/detail/descent.hpp>
-#include <sivid/approximate/fit/detail/fit_at.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/work_limit.hpp>

@@ -7,7 +7,7 @@
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/place/detail/law_search.hpp>
-#include <sivid/approximate/place/detail/missing_rate_scales.hpp>
+#include <sivid/approximate/place/detail/missing_rate.hpp>
 #include <sivid/approximate/place/detail/place_search.hpp>
 #include <sivid/work_limit.hpp>
 

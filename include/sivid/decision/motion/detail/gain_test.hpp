@@ -8,7 +8,7 @@
 #include <sivid/decision/motion/detail/open_parts.hpp>
 #include <sivid/decision/motion/detail/verification_types.hpp>
 #include <sivid/decision/motion/detail/witness_search.hpp>
-#include <sivid/decision/prediction_options.hpp>
+#include <sivid/decision/prediction_problem.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/work_limit.hpp>
 
