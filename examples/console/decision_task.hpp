@@ -29,12 +29,13 @@
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/named_effects.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/sha256.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/verifier/predict_from.hpp>
 #include <sivid/version.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -145,9 +146,7 @@ public:
     }
     /// The effects that the result speaks of.
     [[nodiscard]] std::string effects() const {
-        std::string text;
-        for (auto const& e : stored_.effects) text += (text.empty() ? "" : ", ") + e;
-        return text.empty() ? "the model as it is" : text;
+        return stored_.effects.empty() ? "the model as it is" : sivid::joined(stored_.effects);
     }
     [[nodiscard]] std::vector<sivid::varied_input> const& varied() const { return varied_; }
 
@@ -354,11 +353,9 @@ private:
         auto const found = std::find_if(problem_.experiments.begin(), problem_.experiments.end(),
                                         [&](auto const& e) { return e.name == name; });
         if (found == problem_.experiments.end()) {
-            std::string known;
-            for (auto const& e : problem_.experiments)
-                known += (known.empty() ? "" : ", ") + e.name;
-            throw std::invalid_argument("the data set has no scenario " + sivid::in_quotes(name) +
-                                        " of the role fit; it has: " + known);
+            throw std::invalid_argument(
+                "the data set has no scenario " + sivid::in_quotes(name) +
+                " of the role fit; it has: " + sivid::joined_names(problem_.experiments));
         }
         scenario_ = found->name;
         about_ = "As recorded in " + dataset_ + ".";

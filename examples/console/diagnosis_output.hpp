@@ -9,6 +9,7 @@
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/io/diagnosis_json.hpp>
 #include <sivid/io/file_set.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_report.hpp>
 #include <sivid/report/diagnosis_words.hpp>
@@ -23,12 +24,6 @@
 #include <vector>
 
 namespace console {
-
-inline std::string joined(std::vector<std::string> const& all) {
-    std::string text;
-    for (auto const& s : all) text += (text.empty() ? "" : " + ") + s;
-    return text;
-}
 
 namespace detail {
 
@@ -130,7 +125,7 @@ inline void print_holdout(sivid::diagnosis const& d) {
 
 /// "open: 8 of 36 candidates tried, no pair"
 inline std::string answer_words(sivid::diagnosis const& d) {
-    if (d.answer == sivid::answer_kind::effects) return joined(d.effects);
+    if (d.answer == sivid::answer_kind::effects) return sivid::joined(d.effects, " + ");
     auto const tried = sivid::report::tried_text(sivid::report::view_of(d));
     return std::string{to_string(d.answer)} + (tried.empty() ? "" : ": " + tried);
 }
@@ -209,7 +204,7 @@ inline std::string inflation_words(sivid::diagnosis_run const& run,
 
 /// "as it is" or "+ overflow + offset"
 inline std::string model_words(std::vector<std::string> const& effects) {
-    return effects.empty() ? "as it is" : "+ " + joined(effects);
+    return effects.empty() ? "as it is" : "+ " + sivid::joined(effects, " + ");
 }
 
 /// What a program ends with: undecided where candidates were left untried, or it was ended early.
@@ -249,13 +244,14 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
     }
     if (d.remainder) {
         std::cout << "  unexplained remainder: "
-                  << (d.remainder->effects.empty() ? std::string{"the model as it is"}
-                                                   : "with " + joined(d.remainder->effects))
+                  << (d.remainder->effects.empty()
+                          ? std::string{"the model as it is"}
+                          : "with " + sivid::joined(d.remainder->effects, " + "))
                   << ", inflation "
                   << report::inflation_text(detail::range_of(d.remainder->inflation)) << "\n";
     }
     for (auto const& other : d.indistinguishable) {
-        std::cout << "  not told apart from it: " << joined(other) << "\n";
+        std::cout << "  not told apart from it: " << sivid::joined(other, " + ") << "\n";
     }
     detail::print_holdout(d);
     for (auto const& line : d.change.lines) std::cout << "  in a simulator: " << line << "\n";

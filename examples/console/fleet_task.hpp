@@ -9,6 +9,7 @@
 #include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/text/json_writer.hpp>
 #include <sivid/io/text/text_file.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -136,7 +137,7 @@ public:
 
     /// Runs it. @returns  how it ended, in words
     [[nodiscard]] std::string run(std::function<bool()> const& wanted) const {
-        auto const begin = std::chrono::steady_clock::now();
+        sivid::stopwatch const clock;
         prepare_folder(out_);
         std::filesystem::remove(note_file());
         auto words = command_;
@@ -148,8 +149,7 @@ public:
             stopped = stopped || !wanted();
             return !stopped;
         });
-        double const took =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        double const took = clock.spent();
         if (code >= 1000) return "ended by signal " + std::to_string(code - 1000);
         if (stopped) return "stopped early";
         sivid::json_writer json;

@@ -22,10 +22,10 @@
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/identify.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -11,6 +11,7 @@
 
 #ifdef SIVID_HAS_MPI
 #include <sivid/cluster/identify.hpp>
+#include <sivid/number/text/joined.hpp>
 #endif
 #include <sivid/diagnosis/identify_remembering.hpp>
 #include <sivid/io/checkpoint.hpp>
@@ -22,15 +23,14 @@
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/paving/outlier_budget.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/identifiability_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -79,7 +79,7 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
         (stands ? combined : idle).push_back(problem.choice.unknown[j]);
     }
     if (!combined.empty())
-        std::cout << "  " << report::detail::joined(combined)
+        std::cout << "  " << sivid::enumeration(combined)
                   << " are only known through such combinations on these data\n";
     for (auto const& name : idle)
         std::cout << "  " << name << " stands nowhere in the equations of these data\n";
@@ -322,8 +322,7 @@ sivid::online_options online_options_of(identify_command const& c) {
 
 int run(identify_command const& c) {
     namespace report = sivid::report;
-    using seconds = std::chrono::duration<double>;
-    auto const begun = std::chrono::steady_clock::now();
+    sivid::stopwatch const clock;
     auto const model = sivid::record_model(c.craft);
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     std::optional<remembering_problem> remembering;
@@ -361,7 +360,7 @@ int run(identify_command const& c) {
         console::watch_interrupts();
     }
     auto const wanted = [] { return !console::interrupted(); };
-    double const left = c.budget - seconds{std::chrono::steady_clock::now() - begun}.count();
+    double const left = c.budget - clock.spent();
     double const budget = std::max(0.0, left - seconds_of_tables(problem, c.budget));
     sivid::work_limit limit(budget, wanted);
     console::progress_line progress(c.quiet || helps(c));

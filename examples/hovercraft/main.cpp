@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <sivid/number/text/joined.hpp>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -69,11 +70,8 @@ unknown_parameter default_prior(std::string const& name) {
                               ": its nominal value is 0, give a prior as " + name + "=lower:upper");
         return {name, tenths(nominal, 9), tenths(nominal, 11)};
     }
-    std::string known;
-    for (auto const& c : hovercraft::constants)
-        known += (known.empty() ? "" : ", ") + std::string{c.name};
     throw bad_request(std::string{"unknown constant "} + sivid::in_quotes(name) +
-                      "; the model has: " + known);
+                      "; the model has: " + sivid::joined_names(hovercraft::constants));
 }
 
 std::vector<unknown_parameter> unknown_from(std::vector<std::string> const& list) {

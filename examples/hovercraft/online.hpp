@@ -3,7 +3,7 @@
 #define HOVERCRAFT_ONLINE_HPP
 
 #include <sivid/paving/online_identification.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <functional>
 #include <iosfwd>

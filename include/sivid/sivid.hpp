@@ -29,6 +29,7 @@
 #include <sivid/number/rounding.hpp>
 #include <sivid/number/stream.hpp>
 #include <sivid/number/taylor_model.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/number/traits_by_bounds.hpp>
@@ -189,13 +190,11 @@
 #include <sivid/paving/static_problem.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/decision/control_law.hpp>
 #include <sivid/decision/experiment_design.hpp>
 #include <sivid/decision/gain_search.hpp>
 #include <sivid/decision/measurement_ranking.hpp>
 #include <sivid/decision/prediction.hpp>
-#include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/decision/promised_width.hpp>
 #include <sivid/decision/rank.hpp>
@@ -218,6 +217,7 @@
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/executor.hpp>
 #include <sivid/version.hpp>
+#include <sivid/work_limit.hpp>
 // clang-format on
 
 #endif // SIVID_SIVID_HPP

@@ -28,14 +28,13 @@ manoeuvre rest() {
 } // namespace
 
 TEST_CASE("the manoeuvre that parts rivals best is proposed, its settings at the best") {
-    screening s(small_campaign::problem(small_campaign::with_drag(0.3)),
-                small_campaign::catalogue());
+    auto const problem = small_campaign::problem(small_campaign::with_drag(0.3));
+    screening s(problem, small_campaign::catalogue());
     s.try_one({});
     s.try_one({0});
     std::vector<screened const*> const rivals{&s.candidates()[0], &s.candidates()[1]};
     auto const next = propose_experiment(
-        rivals, {rest(), constant_push("push", 0.25, 2), constant_push("tap", 0, 0.1)},
-        {0.02, 0.03}, 0.1);
+        rivals, {rest(), constant_push("push", 0.25, 2), constant_push("tap", 0, 0.1)}, problem);
     REQUIRE(next);
     CHECK(next->manoeuvre == "push");
     REQUIRE(next->settings.size() == 1);
@@ -43,7 +42,7 @@ TEST_CASE("the manoeuvre that parts rivals best is proposed, its settings at the
     CHECK(next->separation > 5);
     CHECK_FALSE(next->recorded);
     // At rest the two are alike.
-    CHECK_FALSE(propose_experiment(rivals, {rest()}, {0.02, 0.03}, 0.1));
-    CHECK_FALSE(propose_experiment({rivals[0]}, {rest()}, {0.02, 0.03}, 0.1));
-    CHECK_FALSE(propose_experiment(rivals, {}, {0.02, 0.03}, 0.1));
+    CHECK_FALSE(propose_experiment(rivals, {rest()}, problem));
+    CHECK_FALSE(propose_experiment({rivals[0]}, {rest()}, problem));
+    CHECK_FALSE(propose_experiment(rivals, {}, problem));
 }

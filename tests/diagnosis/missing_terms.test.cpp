@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What no catalogue has: laws of a missing rate.
-#include <sivid/diagnosis/candidate/detail/proposed_terms.hpp>
+#include <sivid/diagnosis/candidate/detail/proposed_faults.hpp>
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 

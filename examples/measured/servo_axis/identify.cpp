@@ -9,10 +9,10 @@
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/witness.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -212,10 +212,7 @@ identify_axis(posed_problem const& posed, double accuracy, double budget,
               std::function<bool(sivid::paving_progress const&)> const& progress) {
     auto const& problem = posed.problem;
     problem.require_valid();
-    auto const begin = std::chrono::steady_clock::now();
-    auto const elapsed = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    };
+    sivid::stopwatch const clock;
     sivid::identification result(problem.prior);
     result.assumptions.emplace_back("inputs exact");
 
@@ -236,7 +233,7 @@ identify_axis(posed_problem const& posed, double accuracy, double budget,
     balance_test test(windows_of(problem), epsilon());
     sivid::inversion_options search;
     search.accuracy = accuracy;
-    search.seconds = std::max(0.0, budget - elapsed());
+    search.seconds = std::max(0.0, budget - clock.spent());
     search.progress = progress;
     auto found = sivid::invert(test, problem.prior, search);
     result.paving = std::move(found.paving);
@@ -249,7 +246,7 @@ identify_axis(posed_problem const& posed, double accuracy, double budget,
     } else if (!result.paving.has_outer()) {
         result.verdict = sivid::verdict::inconsistent;
     }
-    result.seconds = elapsed();
+    result.seconds = clock.spent();
     return result;
 }
 

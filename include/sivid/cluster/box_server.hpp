@@ -7,8 +7,8 @@
 #include <sivid/paving/search/detail/box_batches.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_limit.hpp>
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -109,7 +109,7 @@ private:
             static_cast<void>(learnt(number, about));
         }
         auto const count = in.count(24);
-        auto const begin = std::chrono::steady_clock::now();
+        stopwatch const clock;
         for (auto n = count; n > 0; --n) {
             auto const which = lessons_.find(in.number());
             auto const place = in.number();
@@ -121,8 +121,7 @@ private:
             out.put(a).put(a.knowledge != nullptr);
         }
         in.finish();
-        auto const took = std::chrono::steady_clock::now() - begin;
-        return wire_writer().put(std::chrono::duration<double>(took).count()).take() + out.take();
+        return wire_writer().put(clock.spent()).take() + out.take();
     }
 
     Test* test_;

@@ -6,6 +6,7 @@
 #include <sivid/cluster/identity.hpp>
 #include <sivid/cluster/transport.hpp>
 #include <sivid/cluster/wire.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -92,7 +93,7 @@ public:
     /// @throws worker_mismatch, wire_error, std::runtime_error (a worker's fault)
     [[nodiscard]] answers ask(std::vector<task> const& tasks, std::function<bool()> const& go_on,
                               manner const& how) {
-        auto const begin = clock::now();
+        stopwatch const watch;
         if (stopped_ && go_on()) hail();
         answers done(tasks.size());
         std::size_t left = tasks.size();
@@ -140,7 +141,7 @@ public:
             }
             rest.wait();
         }
-        traffic_.asking += std::chrono::duration<double>(clock::now() - begin).count();
+        traffic_.asking += watch.spent();
         return done;
     }
 

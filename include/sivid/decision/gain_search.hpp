@@ -4,7 +4,6 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/motion/detail/verification_types.hpp>
-#include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/paving/inversion_options.hpp>

@@ -3,7 +3,6 @@
 #define SIVID_DECISION_PREDICTION_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/prediction_options.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 
 #include <cstddef>

@@ -8,6 +8,7 @@
 #include <sivid/model/model.hpp>
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/paving/response/response.hpp>
+#include <sivid/paving/run_options.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -159,6 +160,17 @@ private:
     result.push_back(wanted.back());
     return result;
 }
+
+/// How hard motions are predicted and requirements tried.
+struct prediction_options {
+    double seconds = 10;
+    std::size_t parts = 20'000; ///< at most so many
+    std::size_t cells = 120;    ///< of the grid in time, at least; `verify` refines it
+    /// Tubes may be wider than what is reached by this share.
+    double excess = 0.02;
+    run_options run{};
+    std::function<bool()> keep_going{}; ///< false ends the work; what is proved stays proved
+};
 
 } // namespace sivid
 

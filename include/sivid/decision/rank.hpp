@@ -34,9 +34,6 @@ struct parameter_effect {
     double time = 0;
     std::vector<double> start{}, at{};
     double from = 0, to = 0;
-
-    /// Alone it moves no measurement of the channel by an error bound; together with others it may.
-    [[nodiscard]] bool stays_below_error() const { return high < 1; }
 };
 
 /// One channel of one experiment.

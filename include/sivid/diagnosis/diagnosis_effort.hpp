@@ -4,10 +4,10 @@
 
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation/detail/observer_effort.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
@@ -38,9 +38,7 @@ public:
     diagnosis_effort(diagnosis_effort const&) = delete;
     diagnosis_effort& operator=(diagnosis_effort const&) = delete;
 
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(clock::now() - begin_).count();
-    }
+    [[nodiscard]] double seconds() const { return clock_.spent(); }
     [[nodiscard]] double left() const { return std::max(0.0, all_ - seconds()); }
     [[nodiscard]] bool stopped() const { return stopped_; }
     /// With the clock of the diagnosis, so that no run outlasts it.
@@ -94,7 +92,6 @@ public:
     }
 
 private:
-    using clock = std::chrono::steady_clock;
     static constexpr double pause = 0.1; ///< between two questions whether to go on [s]
 
     void ask() {
@@ -109,7 +106,7 @@ private:
     std::mutex asking_;
     std::atomic<double> asked_ = 0; ///< when
     std::atomic<bool> stopped_ = false;
-    clock::time_point begin_ = clock::now();
+    stopwatch clock_;
 };
 
 } // namespace sivid

@@ -9,7 +9,6 @@
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
-#include <sivid/diagnosis/gap/detail/gap_options.hpp>
 #include <sivid/diagnosis/gap/detail/verified_inflation.hpp>
 #include <sivid/diagnosis/hold_out/detail/holdout_results.hpp>
 #include <sivid/diagnosis/holdout.hpp>

@@ -15,16 +15,10 @@ namespace sivid {
 
 /// The manoeuvre among those given that tells candidates apart best, its settings optimised.
 /// Predicted at the candidates' fits, which a further fit may partly make up for; not a proof.
-/// @param errors  bound of each channel; 0: not measured
-/// @param period  of the measurements [s]
-/// @param go_on   asked before and within simulations; false ends with the best found by then; may
-///                be empty
+/// @param measured  says how channels are measured: within which bounds, and how often
+/// @param go_on     asked before and within simulations; false ends with the best found by then;
+///                  may be empty
 /// @returns nothing when there are fewer than two candidates or no manoeuvre can be simulated
-[[nodiscard]] SIVID_DECL std::optional<next_experiment>
-propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
-                   std::vector<double> errors, double period,
-                   std::function<bool()> const& go_on = {});
-/// The same, measured as in a problem.
 [[nodiscard]] SIVID_DECL std::optional<next_experiment>
 propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
                    identification_problem const& measured, std::function<bool()> const& go_on = {});

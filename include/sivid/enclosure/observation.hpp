@@ -115,9 +115,7 @@ private:
     void evaluate(series<I>& s, I const& t, basic_box<I> const& x, double start) {
         auto const errors = largest_input_errors(*flow_, start, traits::lower(t), traits::upper(t));
         auto const inputs = widened(input_pieces<I>(*flow_, start, t), *flow_, errors);
-        s.start(t);
-        s.advance(
-            0, [&x](std::size_t i, std::size_t) { return x[i]; }, inputs);
+        s.evaluate(t, x, inputs);
     }
 
     flow const* flow_;

@@ -5,6 +5,7 @@
 #include <sivid/io/dataset/mapping_entries.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/model/effect.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -56,20 +57,16 @@ namespace sivid {
         auto const e = std::find_if(catalogue.begin(), catalogue.end(),
                                     [&](auto const& x) { return x.name == chosen.name; });
         if (e == catalogue.end()) {
-            std::string known;
-            for (auto const& x : catalogue) known += (known.empty() ? "" : ", ") + x.name;
             fail(text_of("unknown effect ", in_quotes(chosen.name)),
-                 text_of("this program tries: ", known));
+                 text_of("this program tries: ", joined_names(catalogue)));
         }
         for (auto const& prior : chosen.priors) {
             auto const p = std::find_if(e->parameters.begin(), e->parameters.end(),
                                         [&](auto const& x) { return x.name == prior.parameter; });
             if (p == e->parameters.end()) {
-                std::string known;
-                for (auto const& x : e->parameters)
-                    known += (known.empty() ? "" : ", ") + in_quotes(x.name);
                 fail(text_of("the effect has no parameter ", in_quotes(prior.parameter)),
-                     text_of("it has: ", known));
+                     text_of("it has: ", joined(e->parameters, ", ",
+                                                [](auto const& x) { return in_quotes(x.name); })));
             }
             auto const lower = as_decimal(prior.lower), upper = as_decimal(prior.upper);
             if ((nearest(p->lower) >= 0 && nearest(lower) < 0) ||

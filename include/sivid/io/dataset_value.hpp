@@ -70,13 +70,6 @@ struct scenario {
     record measurements;               ///< by time, then channel; bound encloses value +/- error
     std::vector<stated_measurement> stated; ///< of the same measurements
     std::vector<initial_range> initial;     ///< one for each state of the model
-
-    /// Whether no input has a stated error.
-    [[nodiscard]] bool inputs_exact() const {
-        for (auto const& input : inputs)
-            if (!input.error.empty()) return false;
-        return true;
-    }
 };
 
 /// What a data set says of an effect that a diagnosis may try (`chosen_effects`).

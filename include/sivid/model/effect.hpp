@@ -213,6 +213,15 @@ private:
                                             std::vector<double> since = {},
                                             std::vector<double> until = {});
 
+/// Whether scenarios can stand in the name of an effect that acts in them only (`only_within`).
+[[nodiscard]] inline bool can_stand_in_a_name(std::vector<std::string> const& scenarios) {
+    constexpr std::size_t most = 8;
+    return scenarios.size() <= most &&
+           std::all_of(scenarios.begin(), scenarios.end(), [](std::string const& s) {
+               return s.find_first_of("@+,<>") == std::string::npos;
+           });
+}
+
 /// For effects that are known by their names: each has one of its own, which no input of the model
 /// has, and begins and ends once in an experiment.
 /// @throws std::invalid_argument  that names what does not fit

@@ -4,6 +4,7 @@
 
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -20,12 +21,11 @@ namespace sivid {
 template <class Items>
 [[nodiscard]] std::size_t index_of(Items const& items, std::string const& wanted,
                                    std::string const& kind) {
-    std::string known;
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (items[i].name == wanted) return i;
-        known += (i ? ", " : "") + std::string(items[i].name);
     }
-    throw std::invalid_argument("unknown " + kind + " '" + wanted + "'; known: " + known);
+    throw std::invalid_argument("unknown " + kind + " '" + wanted +
+                                "'; known: " + joined_names(items));
 }
 
 /// Which constants are unknown, and the values of those that differ from the model's nominal ones.

@@ -152,6 +152,13 @@ struct identification_problem {
     }
 };
 
+/// How many measurements all experiments have together.
+[[nodiscard]] inline std::size_t measurement_count(identification_problem const& problem) {
+    std::size_t count = 0;
+    for (auto const& e : problem.experiments) count += e.measurements.size();
+    return count;
+}
+
 } // namespace sivid
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/run/plain_run.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <cstddef>
 #include <memory>

@@ -7,9 +7,9 @@
 #include <sivid/paving/static/flat_paving.hpp>
 #include <sivid/paving/static/static_judge.hpp>
 #include <sivid/paving/static/static_survey.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -62,15 +62,12 @@ public:
 
     [[nodiscard]] flat_paving operator()() {
         require_sound_environment();
-        auto const begin = std::chrono::steady_clock::now();
-        auto const seconds = [&] {
-            return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        };
+        stopwatch const clock;
         prepare();
         while (!blocks_.empty() || !boxes_.empty()) {
             if (options_.keep_going && !options_.keep_going()) {
                 stop(stop_reason::cancelled);
-            } else if (seconds() > options_.seconds) {
+            } else if (clock.spent() > options_.seconds) {
                 stop(stop_reason::time_budget);
             } else if (result_.tested >= options_.boxes) {
                 stop(stop_reason::box_budget);
@@ -82,7 +79,7 @@ public:
             }
         }
         result_.asked = judge_.asked() + survey_.asked();
-        result_.seconds = seconds();
+        result_.seconds = clock.spent();
         return std::move(result_);
     }
 

@@ -29,8 +29,6 @@ SIVID_DECL std::string motion_text(free_motion const& m,
 SIVID_DECL std::string direction_text(sensitive_direction const& d,
                                       std::vector<unknown_quantity> const& names);
 
-SIVID_DECL std::string joined_formulas(std::vector<fixed_formula> const& list);
-
 } // namespace detail
 
 /// One sentence a line: the ranks, what is free, what acts through which combinations, and the

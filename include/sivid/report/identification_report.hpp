@@ -38,8 +38,6 @@ namespace detail {
 /// well; still an enclosure.
 SIVID_DECL range shown_share(interval const& volume);
 
-SIVID_DECL std::string joined(std::vector<std::string> const& all);
-
 } // namespace detail
 
 /// What the page of an identification shows; `identification_page` makes the page.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/importing/detail/import_mapping.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include "io/import_support.hpp"
 

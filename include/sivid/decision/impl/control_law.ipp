@@ -7,6 +7,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/decision/requirement/detail/requirement_numbers.hpp>
 #include <sivid/model/graph/graph_range.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,7 @@ private:
                                                 [&](auto const& i) { return i.name == *input; });
         if (!known)
             words_.fail_at(position, "an input of the model is needed here",
-                           "write INPUT = expression; the model has: " + names_of_list(all));
+                           "write INPUT = expression; the model has: " + joined_names(all));
         words_.need("=", "write INPUT = expression");
         auto const value = sum();
         need_plain(value);

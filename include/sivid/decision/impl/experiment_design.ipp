@@ -7,10 +7,9 @@
 #include <sivid/compiled.hpp>
 #include <sivid/decision/design/detail/design_guide.hpp>
 #include <sivid/model/best_settings.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -44,7 +43,6 @@ design_search(std::vector<manoeuvre> const& menu, std::vector<design_guide::mode
         m.problem->require_valid();
         plan.require_valid(*m.problem);
     }
-    auto const begun = std::chrono::steady_clock::now();
     work_limit limit(options.seconds, options.keep_going);
     experiment_design result;
 
@@ -53,8 +51,7 @@ design_search(std::vector<manoeuvre> const& menu, std::vector<design_guide::mode
     double const until = 0.8 * options.seconds;
     for (std::size_t k = 0; k < menu.size(); ++k) {
         auto const& m = menu[k];
-        double const spent = options.seconds - limit.seconds();
-        looking = work_limit((until - spent) / static_cast<double>(menu.size() - k), limit);
+        looking = work_limit((until - limit.spent()) / static_cast<double>(menu.size() - k), limit);
         auto const chosen = best_settings(
             m.settings, [&](std::vector<double> const& s) { return guide(m.inputs(s)); });
         if (!(chosen.value > -1e5)) continue; // cannot be run, or passes the limits
@@ -96,8 +93,7 @@ design_search(std::vector<manoeuvre> const& menu, std::vector<design_guide::mode
         if (a.allowed() != b.allowed()) return a.allowed();
         return a.allowed() ? a.factor() < b.factor() : a.estimate < b.estimate;
     });
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    result.seconds = limit.spent();
     return result;
 }
 

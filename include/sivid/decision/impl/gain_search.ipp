@@ -9,10 +9,10 @@
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/few_digits.hpp>
 #include <sivid/paving/invert.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -162,7 +162,7 @@ SIVID_DECL bool gain_set::none_exists() const { return !paving.paving.has_outer(
 SIVID_DECL gain_set find_gains(prediction_problem const& problem,
                                std::vector<std::string> const& gains, requirement const& what,
                                feasible_points const& feasible, gain_options const& options) {
-    auto const begun = std::chrono::steady_clock::now();
+    stopwatch const clock;
     decision_detail::require_asked(problem, what);
     if (feasible.direct != nullptr) decision_detail::require_asked(*feasible.direct, what);
     if (gains.empty()) throw std::invalid_argument("find_gains: no gain is named");
@@ -194,8 +194,7 @@ SIVID_DECL gain_set find_gains(prediction_problem const& problem,
     result.unknown = test.unknown();
     result.parts = test.parts();
     result.integrations = test.integrations();
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    result.seconds = clock.spent();
     return result;
 }
 

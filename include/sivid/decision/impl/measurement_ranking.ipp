@@ -9,10 +9,9 @@
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -90,7 +89,6 @@ inline subpaving reached_of(subpaving const& products, reduction const& map, box
 SIVID_DECL measurement_ranking rank_measurements(identification_problem const& problem,
                                                  measurement_ranking_options const& options,
                                                  std::vector<measurement_group> groups) {
-    auto const begin = std::chrono::steady_clock::now();
     problem.require_valid_campaign();
     work_limit const limit(options.seconds, options.keep_going);
     if (groups.empty()) groups = decision_detail::usual_groups(problem, options.times);
@@ -163,8 +161,7 @@ SIVID_DECL measurement_ranking rank_measurements(identification_problem const& p
                                     ? a.growth.lower() > b.growth.lower()
                                     : a.growth.upper() > b.growth.upper();
                      });
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = limit.spent();
     return result;
 }
 

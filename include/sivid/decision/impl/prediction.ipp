@@ -8,10 +8,9 @@
 #include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -45,7 +44,7 @@ public:
     }
 
     [[nodiscard]] prediction operator()() {
-        auto const begun = std::chrono::steady_clock::now();
+        stopwatch const clock;
         parts_.push_back({cover_->whole(), {}});
         learn({&parts_.front()});
         if (many()) ask_data();
@@ -63,8 +62,7 @@ public:
         collect(result);
         result.parts = parts_.size();
         result.integrations = cover_->integrations();
-        result.seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        result.seconds = clock.spent();
         return result;
     }
 
@@ -132,11 +130,9 @@ private:
             for (auto* i : short_of) {
                 // A hundred-thousandth of the whole that gets no further will not by halving.
                 bool const tiny = cover_->widest_share(i->what) < 1e-5;
-                auto const side = motion_cover::most(cover_->moved_by_sides(i->what, i->seen));
-                auto const halves =
-                    replace(i, tiny                         ? std::vector<motion_cover::part>{}
-                               : side == motion_cover::none ? cover_->split(i->what)
-                                                            : cover_->split(i->what, side));
+                auto const moved = cover_->moved_by_sides(i->what, i->seen);
+                auto const halves = replace(i, tiny ? std::vector<motion_cover::part>{}
+                                                    : cover_->split_by(moved, i->what));
                 if (halves.empty()) i->settled = true;
                 next.insert(next.end(), halves.begin(), halves.end());
             }
@@ -199,9 +195,7 @@ private:
             if (taken == cover_->at_once() || heavy < 0.05 * found.holders.front().first) break;
             ++taken;
             bool const worn = lost_share(*i) > 0.4;
-            auto const side = motion_cover::most(cover_->curved_by_sides(i->what, i->seen));
-            auto halves =
-                side == motion_cover::none ? cover_->split(i->what) : cover_->split(i->what, side);
+            auto halves = cover_->split_by(cover_->curved_by_sides(i->what, i->seen), i->what);
             if (halves.empty()) {
                 i->settled = true;
                 continue;

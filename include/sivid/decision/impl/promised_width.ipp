@@ -6,9 +6,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/design/detail/pair_search.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -63,10 +63,9 @@ SIVID_DECL promise promise_widths(prediction_problem const& problem,
         if (g >= problem.model.g.size() || (problem.model.g.depends(g) & ~on_constant) != 0)
             throw std::invalid_argument("a goal is no function of the model's constants");
     }
-    auto const begun = std::chrono::steady_clock::now();
+    stopwatch const clock;
     auto result = decision_detail::pair_search(problem, plan, goals, options)();
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    result.seconds = clock.spent();
     return result;
 }
 
@@ -84,10 +83,9 @@ SIVID_DECL promise tell_apart(prediction_problem const& first, prediction_proble
         !same(first.model.about.inputs, second.model.about.inputs))
         throw std::invalid_argument("tell_apart: both models need the same inputs (no effect that "
                                     "acts in some experiments only), channels and duration");
-    auto const begun = std::chrono::steady_clock::now();
+    stopwatch const clock;
     auto result = decision_detail::pair_search(first, second, plan, options)();
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    result.seconds = clock.spent();
     return result;
 }
 

@@ -10,10 +10,9 @@
 #include <sivid/model/parameter_choice.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
 #include <sivid/paving/products/dependence.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -328,7 +327,7 @@ SIVID_DECL bool ranking::moves_exact(std::size_t parameter) const {
 }
 
 SIVID_DECL ranking rank(identification_problem const& problem, rank_options const& options) {
-    auto const begin = std::chrono::steady_clock::now();
+    stopwatch const clock;
     problem.require_data();
     if (problem.model.has_memory())
         throw std::invalid_argument(
@@ -346,8 +345,7 @@ SIVID_DECL ranking rank(identification_problem const& problem, rank_options cons
     auto result = decision_detail::ranking_work(everything, options)();
     result.combinations = dependence_of(everything);
     std::erase_if(result.combinations.entangled, [&](std::size_t j) { return !result.acts(j); });
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = clock.spent();
     return result;
 }
 

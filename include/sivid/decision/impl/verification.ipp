@@ -10,10 +10,9 @@
 #include <sivid/decision/motion/detail/judged_motions.hpp>
 #include <sivid/decision/motion/detail/open_parts.hpp>
 #include <sivid/decision/motion/detail/witness_search.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -63,15 +62,11 @@ public:
             if (todo.empty()) break;
         }
         finish();
-        result_.seconds = since(begun_);
+        result_.seconds = limit_.spent();
         return std::move(result_);
     }
 
 private:
-    using clock = std::chrono::steady_clock;
-    [[nodiscard]] static double since(clock::time_point t) {
-        return std::chrono::duration<double>(clock::now() - t).count();
-    }
     using item = open_parts::item;
 
     [[nodiscard]] bool going() const {
@@ -167,7 +162,6 @@ private:
     work_limit limit_;
     witness_search witness_;
     heard_data data_;
-    clock::time_point begun_ = clock::now();
     std::vector<double> times_;
     std::optional<judged_motions> motions_;
     std::optional<open_parts> open_;

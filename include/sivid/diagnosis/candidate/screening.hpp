@@ -12,9 +12,10 @@
 #include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/number/text/joined.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -229,7 +230,6 @@ public:
     }
 
 private:
-    using clock = std::chrono::steady_clock;
     static constexpr std::size_t most_joined = 3; ///< sets that further effects join
 
     [[nodiscard]] effect_sets singles() const {
@@ -305,9 +305,9 @@ private:
     }
 
     [[nodiscard]] std::string name_of(std::vector<std::size_t> const& effects) const {
-        std::string name;
-        for (auto const e : effects) name += (name.empty() ? "" : " + ") + catalogue_[e].name;
-        return name.empty() ? "the model itself" : name;
+        return effects.empty()
+                   ? "the model itself"
+                   : sivid::joined(effects, " + ", [this](auto e) { return catalogue_[e].name; });
     }
     [[nodiscard]] bool may_try(std::string const& name, std::mutex& asking) {
         std::lock_guard const alone(asking);
@@ -316,7 +316,7 @@ private:
     }
     /// For any thread.
     [[nodiscard]] bool in_time() const {
-        return seconds() < options_.seconds && (!options_.go_on || options_.go_on());
+        return clock_.spent() < options_.seconds && (!options_.go_on || options_.go_on());
     }
     static void take_figures(screened& s) {
         s.figures.inflation = s.fit.inflation;
@@ -380,9 +380,6 @@ private:
             if (result.size() < most) result.push_back(s->figures.effects);
         return result;
     }
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(clock::now() - begin_).count();
-    }
 
     identification_problem base_;
     std::vector<effect> catalogue_;
@@ -392,7 +389,7 @@ private:
     impossible_sets impossible_;
     std::size_t measurements_ = 0;
     bool stopped_ = false; ///< changed by one thread at a time
-    clock::time_point begin_ = clock::now();
+    stopwatch clock_;
 };
 
 } // namespace sivid

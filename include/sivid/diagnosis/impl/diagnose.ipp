@@ -9,8 +9,6 @@
 #include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/proposed_faults.hpp>
-#include <sivid/diagnosis/candidate/detail/proposed_terms.hpp>
-#include <sivid/diagnosis/candidate/detail/scenario_names.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/claim/detail/answer_formulas.hpp>
 #include <sivid/diagnosis/claim/detail/answer_hulls.hpp>

@@ -7,9 +7,9 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/hold_out/detail/holdout_judgement.hpp>
 #include <sivid/diagnosis/holdout.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -21,10 +21,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
                                  data_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
     data.judged_by(run.candidates.front(), run.base, run.catalogue).require_valid_campaign();
-    auto const begin = std::chrono::steady_clock::now();
-    auto const elapsed = [begin] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    };
+    stopwatch const clock;
     // Whether effects of some scenarios act in the hold-out ones nobody knows, and perhaps not how
     // often their readings had wrapped. Without effects the answer is the model itself, no cause.
     auto const partial = [](effect const& e) { return !e.only_in.empty(); };
@@ -54,8 +51,8 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         search.seconds = (before ? 0.15 : 0.8) * seconds;
         search.work = (before ? boxes / 8 : boxes / 2) *
                       (run.base.experiments.size() + judged.experiments.size() + 1);
-        search.test = limited(test, [&test, elapsed, end = share * seconds] {
-            return elapsed() < end && !test.run.enclosure.cancelled();
+        search.test = limited(test, [&test, clock, end = share * seconds] {
+            return clock.spent() < end && !test.run.enclosure.cancelled();
         });
         return judge_by_holdout(candidate, bound, explaining, judged, over, search);
     };
@@ -68,7 +65,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
                 judge(run.candidates[run.answer], run.answer_bound, run.answer_hull, 1);
         }
     });
-    run.result.seconds += elapsed();
+    run.result.seconds += clock.spent();
     if (!answered) return;
     auto const& before = *run.holdout_before;
     auto const& after = *run.holdout_after;

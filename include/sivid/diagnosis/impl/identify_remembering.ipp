@@ -9,10 +9,9 @@
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/verification.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -22,7 +21,6 @@ namespace sivid {
 SIVID_DECL identification identify_remembering(identification_problem const& base,
                                                std::vector<effect> const& effects,
                                                effect_hull_options options) {
-    auto const begin = std::chrono::steady_clock::now();
     work_limit const limit(options.seconds, options.keep_going);
     auto const problem = affected(base, effects);
     problem.require_data();
@@ -68,8 +66,7 @@ SIVID_DECL identification identify_remembering(identification_problem const& bas
                     : ended   ? stop_reason::cancelled
                     : in_time ? stop_reason::accuracy_reached // of slices
                               : stop_reason::time_budget;
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = limit.spent();
     return result;
 }
 

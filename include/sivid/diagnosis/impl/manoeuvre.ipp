@@ -96,10 +96,16 @@ private:
 
 SIVID_DECL std::optional<next_experiment>
 propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
-                   std::vector<double> errors, double period, std::function<bool()> const& go_on) {
+                   identification_problem const& measured, std::function<bool()> const& go_on) {
     if (candidates.size() < 2) return std::nullopt;
-    diagnosis_detail::separation const parts(std::move(candidates), std::move(errors), period,
-                                             go_on);
+    std::vector<double> errors(measured.model.about.channels.size(), 0.0);
+    double period = 0;
+    for (auto const& e : measured.experiments) {
+        for (auto const& m : e.measurements) errors[m.channel] = rad(m.bound);
+        if (!e.measurements.empty()) period = e.measurements.front().time - e.begin;
+    }
+    diagnosis_detail::separation const parts(std::move(candidates), std::move(errors),
+                                             period > 0 ? period : 0.1, go_on);
     std::optional<next_experiment> best;
     for (auto const& m : menu) {
         auto const [settings, value] =
@@ -112,19 +118,6 @@ propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvr
         }
     }
     return best;
-}
-
-SIVID_DECL std::optional<next_experiment>
-propose_experiment(std::vector<screened const*> candidates, std::vector<manoeuvre> const& menu,
-                   identification_problem const& measured, std::function<bool()> const& go_on) {
-    std::vector<double> errors(measured.model.about.channels.size(), 0.0);
-    double period = 0;
-    for (auto const& e : measured.experiments) {
-        for (auto const& m : e.measurements) errors[m.channel] = rad(m.bound);
-        if (!e.measurements.empty()) period = e.measurements.front().time - e.begin;
-    }
-    return propose_experiment(std::move(candidates), menu, std::move(errors),
-                              period > 0 ? period : 0.1, go_on);
 }
 
 } // namespace sivid

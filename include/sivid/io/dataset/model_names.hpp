@@ -40,13 +40,6 @@ struct model_names {
     return static_cast<std::size_t>(found - list.begin());
 }
 
-/// "a, b, c" for messages.
-[[nodiscard]] inline std::string joined_names(std::vector<name_unit> const& list) {
-    std::string text;
-    for (auto const& entry : list) text += (text.empty() ? "" : ", ") + entry.name;
-    return text;
-}
-
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

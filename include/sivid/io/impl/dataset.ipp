@@ -10,6 +10,7 @@
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/text/json_document.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -7,6 +7,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/io/text/json_writer.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/io/text/text_file.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -82,8 +83,7 @@ public:
     /// @throws input_error that names the columns there are
     [[nodiscard]] std::size_t required_column(std::string_view heading) const {
         if (auto const found = column(heading)) return *found;
-        std::string known;
-        for (auto const& h : headings_) known += (known.empty() ? "" : ", ") + in_quotes(h);
+        auto const known = joined(headings_, ", ", [](auto const& h) { return in_quotes(h); });
         bool const one = headings_.size() == 1;
         fail(heading_line_, "no column " + in_quotes(heading) + "; it has: " + known,
              one ? "cells are separated by commas" : "rename a column");

@@ -104,7 +104,6 @@ public:
             } else {
                 constant_.push_back(c);
             }
-            if (has_kink(n.op)) has_kinks_ = true;
         }
         auto const first =
             reachable(g, {outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(std::min(
@@ -145,7 +144,6 @@ public:
     /// Slot of each output, in the order given.
     [[nodiscard]] std::size_t output(std::size_t k) const { return outputs_[k]; }
     [[nodiscard]] bool output_varies(std::size_t k) const { return output_varies_[k]; }
-    [[nodiscard]] bool has_kinks() const { return has_kinks_; }
 
 private:
     static bool is_additive(operation op) {
@@ -235,7 +233,6 @@ private:
     std::vector<sum_term> terms_;
     std::vector<std::size_t> outputs_;
     std::vector<bool> output_varies_;
-    bool has_kinks_ = false;
 };
 
 } // namespace sivid

@@ -114,6 +114,13 @@ public:
         }
         advance(program_->principal_varying(), program_->varying().size(), k, state, input);
     }
+    /// The values of everything at a time, where the states are x.
+    template <class States, class Input>
+    void evaluate(T const& t, States const& x, Input const& input) {
+        start(t);
+        advance(
+            0, [&x](std::size_t i, std::size_t) -> decltype(auto) { return x[i]; }, input);
+    }
 
 private:
     using storage = model_detail::storage_of<T>;
@@ -142,9 +149,8 @@ private:
                 break;
             default:
                 if (k == 0 && i.tanh_slope_at &&
-                    model_detail::find_tanh_slope<arithmetic>(get(*i.tanh_slope_at, 0), result)) {
+                    model_detail::find_tanh_slope<arithmetic>(get(*i.tanh_slope_at, 0), result))
                     break;
-                }
                 if (i.is_sum()) {
                     sum(i, k, result);
                 } else if (k > 0 && i.op == operation::mul && i.a_varies && i.b_varies) {
@@ -225,9 +231,8 @@ private:
                 return total.result_into(result);
             }
         }
-        for (std::size_t j = 1; j <= to; ++j) {
+        for (std::size_t j = 1; j <= to; ++j)
             total.add_product(get(a, j), get(b, k - j), static_cast<double>(j));
-        }
         total.result_into(result);
     }
     /// The same divided by k.
@@ -241,19 +246,16 @@ private:
                 double sign = 1) const {
         if constexpr (arithmetic::keeps_rows) {
             if (k >= 2 * from && k - 2 * from + 1 >= worth_rows) {
-                if (k < model_detail::rows_of<arithmetic>::type::at_once) { // all of it is in one
-                                                                            // register
+                if (k < model_detail::rows_of<arithmetic>::type::at_once) // one register holds it
                     return sum.add_convolution(rows_, row_[a], rows_, row_[a], k, from, k - from,
                                                sign);
-                }
                 sum.add_convolution(rows_, row_[a], rows_, row_[a], k, from, (k - 1) / 2, 2 * sign);
                 if (k % 2 == 0) sum.add_square(get(a, k / 2), sign);
                 return;
             }
         }
-        for (std::size_t j = from; 2 * j < k; ++j) {
+        for (std::size_t j = from; 2 * j < k; ++j)
             sum.add_product(get(a, j), get(a, k - j), 2 * sign);
-        }
         if (k % 2 == 0 && k / 2 >= from) sum.add_square(get(a, k / 2), sign);
     }
     void sum(instruction const& i, std::size_t k, T& result) const {
@@ -342,11 +344,10 @@ private:
             mean(a, i.companion, k, k, result);
             result = A::neg(result);
             return;
-        case operation::pown: {
+        case operation::pown:
             weighted(a, i.companion, k, k, result);
             result = A::mul(A::point(i.index), result);
             return over(result, k, result);
-        }
         default:
             result = kink(i, k);
         }
@@ -383,8 +384,7 @@ private:
     };
     std::vector<place> place_;
     typename storage::type c_;
-    typename storage::type
-        reciprocal_; ///< of what order 0 divides by, where the arithmetic keeps it
+    typename storage::type reciprocal_; ///< of divisors, where the arithmetic keeps it
     T time_ = arithmetic::point(0.0);
     T time_slope_ = arithmetic::point(1.0);
     [[no_unique_address]]

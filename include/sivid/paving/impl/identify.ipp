@@ -19,10 +19,9 @@
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -94,7 +93,6 @@ inline void require_witness_left(identification const& found) {
 SIVID_DECL identification identify(identification_problem const& problem,
                                    identify_options options) {
     problem.require_valid();
-    auto const begin = std::chrono::steady_clock::now();
     // Every phase ends in time, and soon when told to: integrations and simulations ask.
     double const earlier =
         options.resume ? options.resume->seconds + options.resume->search.seconds : 0;
@@ -134,9 +132,6 @@ SIVID_DECL identification identify(identification_problem const& problem,
         }
         if (result.guess) starts = paving_detail::starts_of(*result.guess, working);
     }
-    auto const since_begin = [begin] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    };
     auto const fitted = !result.guess ? posed.prior
                         : map         ? map->forward(point_box(result.guess->parameters))
                                       : point_box(result.guess->parameters);
@@ -156,7 +151,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
                           std::min(1.0, relative_volume(windows->rest, posed.prior).upper()),
                           windows->input_period};
     }
-    double const spent = since_begin() + (options.resume ? options.resume->seconds : 0);
+    double const spent = limit.spent() + (options.resume ? options.resume->seconds : 0);
     options.search.seconds = std::max(0.0, options.search.seconds - spent);
     auto search = options.search;
     if (map) search.keep_outside = true; // what is drawn is told from them
@@ -241,7 +236,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
     result.integrations += searched.integrations() - asking;
     if (in_parameters) result.integrations += in_parameters->integrations();
     if (windows) result.integrations += windows->windows + windows->integrations;
-    result.seconds = since_begin();
+    result.seconds = limit.spent();
     if (options.resume) result.seconds += options.resume->seconds + options.resume->search.seconds;
     return result;
 }

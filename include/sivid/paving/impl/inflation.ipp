@@ -11,9 +11,9 @@
 #include <sivid/paving/inflation/detail/inflation_search.hpp>
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -67,9 +67,7 @@ private:
     [[nodiscard]] identification_problem const& working() const {
         return map_ ? map_->problem() : *problem_;
     }
-    [[nodiscard]] double elapsed() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    }
+    [[nodiscard]] double elapsed() const { return clock_.spent(); }
     [[nodiscard]] std::size_t work() const {
         return search_.integrations() + search_.tested() + points_.integrations();
     }
@@ -158,7 +156,7 @@ private:
         return result;
     }
 
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    stopwatch clock_;
     identification_problem const* problem_;
     inflation_options const* options_;
     identification_problem everything_;

@@ -12,11 +12,10 @@
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
 #include <sivid/paving/products/reduction.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box_cover.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -89,7 +88,7 @@ public:
     [[nodiscard]] online_update const& last() const { return last_; }
 
     [[nodiscard]] identification result() {
-        auto const begin = std::chrono::steady_clock::now();
+        stopwatch const clock;
         identification result(problem_.prior);
         result.assumptions.push_back(input_assumption(problem_.experiments));
         auto const& run = options_.test.run.enclosure;
@@ -131,22 +130,17 @@ public:
         }
         result.boxes = paving_->judged();
         result.integrations = paving_->test().integrations();
-        result.seconds = spent_ + seconds_since(begin);
+        result.seconds = spent_ + clock.spent();
         return result;
     }
 
 private:
-    using clock = std::chrono::steady_clock;
-    [[nodiscard]] static double seconds_since(clock::time_point begin) {
-        return std::chrono::duration<double>(clock::now() - begin).count();
-    }
     /// In products of parameters where that has fewer; it holds no measurements.
     [[nodiscard]] identification_problem const& posed() const {
         return map_ ? map_->problem() : problem_;
     }
 
     online_update take(std::vector<record> samples) {
-        auto const begin = clock::now();
         work_limit const limit(options_.refinement.seconds, options_.test.run.enclosure.keep_going);
         online_update now;
         auto const judged = paving_->judged();
@@ -173,7 +167,7 @@ private:
         now.regions = paving_->regions();
         now.judged = paving_->judged() - judged;
         now.integrations = paving_->test().integrations() - runs;
-        now.seconds = seconds_since(begin);
+        now.seconds = limit.spent();
         spent_ += now.seconds;
         return now;
     }

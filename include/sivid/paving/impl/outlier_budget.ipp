@@ -13,10 +13,9 @@
 #include <sivid/paving/outliers/detail/outlier_count.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <numeric>
@@ -150,10 +149,6 @@ SIVID_DECL smallest_budget smallest_outlier_budget(identification_problem const&
     auto options = asked;
     options.keep_going = limit;
     options.test = limited(std::move(options.test), limit);
-    auto const begin = std::chrono::steady_clock::now();
-    auto const elapsed = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    };
     smallest_budget result;
     paving_detail::few_violations few(problem, options.test, limit);
     few.search();
@@ -171,8 +166,8 @@ SIVID_DECL smallest_budget smallest_outlier_budget(identification_problem const&
             one.experiments = {problem.experiments[e]};
             paving_detail::few_violations own(one, options.test, limit);
             own.search();
-            share.seconds =
-                std::max(0.0, 0.5 * (options.seconds - elapsed()) / static_cast<double>(count - e));
+            share.seconds = std::max(0.0, 0.5 * (options.seconds - limit.spent()) /
+                                              static_cast<double>(count - e));
             auto found = paving_detail::least_violations(one, own, {}, share, result);
             found.most = std::min(found.most, few.witness() ? together : found.most);
             result.integrations += own.integrations();
@@ -180,13 +175,13 @@ SIVID_DECL smallest_budget smallest_outlier_budget(identification_problem const&
             result.alone.push_back(found);
         }
     }
-    share.seconds = std::max(0.0, options.seconds - elapsed());
+    share.seconds = std::max(0.0, options.seconds - limit.spent());
     result.total = paving_detail::least_violations(problem, few, least, share, result);
     if (count == 1) result.alone = {result.total};
     result.budgets = few.budgets();
     result.witness = few.witness();
     result.integrations += few.integrations();
-    result.seconds = elapsed();
+    result.seconds = limit.spent();
     return result;
 }
 

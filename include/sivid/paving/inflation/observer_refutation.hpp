@@ -6,9 +6,9 @@
 #include <sivid/paving/inflation/detail/observer_effort.hpp>
 #include <sivid/paving/observer/detail/observer_bank.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -119,14 +119,9 @@ struct observer_bound {
 [[nodiscard]] inline observer_bound
 inflation_refuted_by_observers(identification_problem const& problem, double upper,
                                observer_effort const& most = {}) {
-    using clock = std::chrono::steady_clock;
-    auto const begin = clock::now();
+    work_limit const limit(most.seconds, most.go_on);
     observer_refutation refuted(problem);
-    auto const go_on = [&] {
-        return refuted.tested() < most.boxes &&
-               std::chrono::duration<double>(clock::now() - begin).count() < most.seconds &&
-               (!most.go_on || most.go_on());
-    };
+    auto const go_on = [&] { return refuted.tested() < most.boxes && limit(); };
     observer_bound proved;
     double level = std::nextafter(1.0, 2.0);
     while (level < 0.9 * upper) {

@@ -5,6 +5,7 @@
 #include <sivid/report/design_page.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/page/detail/decision_figures.hpp>
@@ -23,8 +24,7 @@ namespace detail {
 
 inline std::string goal_texts(design_answer const& a) {
     if (a.goals.empty()) return a.first + " or " + a.second;
-    std::string text;
-    for (auto const& g : a.goals) text += (text.empty() ? "" : ", ") + g.text;
+    auto const text = sivid::joined(a.goals, ", ", [](auto const& g) { return g.text; });
     return a.jointly ? "the volume in " + text : text;
 }
 
@@ -128,8 +128,7 @@ inline std::string hidden_sentence(design_answer const& a) {
     std::string text = "The equations contain " + a.hidden +
                        " only together with other parameters, so that no input, no start and "
                        "no measurement tells it apart from them (proved)";
-    for (std::size_t k = 0; k < a.instead.size(); ++k)
-        text += (k == 0 ? ". What can be told: " : ", ") + a.instead[k];
+    if (!a.instead.empty()) text += ". What can be told: " + sivid::joined(a.instead);
     return text + ".";
 }
 

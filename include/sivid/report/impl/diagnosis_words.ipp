@@ -6,6 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/named_effects.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -39,9 +40,7 @@ SIVID_DECL std::string name_of(std::string effect) {
 }
 
 SIVID_DECL std::string names_of(std::vector<std::string> const& effects) {
-    std::string out;
-    for (std::string const& e : effects) out += (out.empty() ? "" : " + ") + name_of(e);
-    return out.empty() ? "the model as it is" : out;
+    return effects.empty() ? "the model as it is" : joined(effects, " + ", name_of);
 }
 
 SIVID_DECL std::string words_of(diagnosis_view const& v, std::vector<std::string> const& effects) {

@@ -4,6 +4,8 @@
 
 #include <sivid/report/identifiability_words.hpp>
 
+#include <sivid/number/text/joined.hpp>
+
 namespace sivid::report {
 
 namespace detail {
@@ -46,12 +48,6 @@ SIVID_DECL std::string direction_text(sensitive_direction const& d,
     return text;
 }
 
-SIVID_DECL std::string joined_formulas(std::vector<fixed_formula> const& list) {
-    std::string text;
-    for (auto const& f : list) text += (text.empty() ? "" : ", ") + f.formula;
-    return text;
-}
-
 } // namespace detail
 
 SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found,
@@ -86,10 +82,11 @@ SIVID_DECL std::vector<std::string> identifiability_words(identifiability const&
                         " of its error bound (to first order)");
     }
     if (!found.fixed.empty())
-        lines.push_back("these act through " + detail::joined_formulas(found.fixed) + " alone");
-    if (!found.nearly_fixed.empty())
-        lines.push_back("these act nearly through " + detail::joined_formulas(found.nearly_fixed) +
+        lines.push_back("these act through " + joined(found.fixed, ", ", &fixed_formula::formula) +
                         " alone");
+    if (!found.nearly_fixed.empty())
+        lines.push_back("these act nearly through " +
+                        joined(found.nearly_fixed, ", ", &fixed_formula::formula) + " alone");
     std::size_t const told = std::min(found.approximate_rank, found.directions.size());
     for (std::size_t k = told - std::min(told, directions); k < told; ++k) {
         auto const& d = found.directions[k];

@@ -16,14 +16,6 @@ SIVID_DECL range shown_share(interval const& volume) {
                : range{std::max(0.0, r.lo - more), std::min(1.0, r.hi + more)};
 }
 
-SIVID_DECL std::string joined(std::vector<std::string> const& all) {
-    std::string text;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + all[i];
-    }
-    return text;
-}
-
 } // namespace detail
 
 SIVID_DECL comparison_row comparison_of(std::string name, identification const& found, bool chosen,

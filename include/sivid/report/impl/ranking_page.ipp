@@ -5,6 +5,7 @@
 #include <sivid/report/ranking_page.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/report/draw/bar_chart.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/table.hpp>
@@ -53,9 +54,8 @@ SIVID_DECL std::vector<std::string> ranking_sentences(identification_problem con
         }
         if (text.empty()) return lines;
         text += " matter in combination only: no measurement tells them apart beyond ";
-        for (std::size_t k = 0; k < products.combinations.size(); ++k)
-            text += (k > 0 ? ", " : "") + products.combinations[k].formula;
-        lines.push_back(text + ".");
+        auto const formula = [](auto const& c) { return c.formula; };
+        lines.push_back(text + sivid::joined(products.combinations, ", ", formula) + ".");
     }
     return lines;
 }
@@ -117,8 +117,7 @@ inline void add_worth(page& out, identification_problem const& about,
     if (!idle.empty())
         out.prose("Nothing changes without any one of these, which follow from the others: " +
                   idle + ".");
-    std::string sides;
-    for (auto const& c : found.coordinates) sides += (sides.empty() ? "" : ", ") + c;
+    auto const sides = sivid::joined(found.coordinates);
     if (!bars.empty())
         out.add(
             figure{.panels = {draw_bar_chart(bars, {.width = 900,

@@ -32,7 +32,7 @@ TEST_CASE("decimals are scaled exactly") {
     CHECK(s.stated[2].error == dec("0.02"));
     CHECK(s.measurements[1].time == 0.1);
     CHECK(s.inputs.at(0).signal.values() == std::vector<double>{1.5, 1.5, 2.5, 2.5});
-    CHECK(s.inputs_exact());
+    CHECK(s.inputs.at(0).error.empty());
     CHECK(r.data.fixed.size() == 1);
     CHECK(s.initial.at(0).stated->upper == dec("1"));
     CHECK(r.protocol.scenarios.at(0).measurements == 3);

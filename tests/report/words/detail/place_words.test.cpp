@@ -27,9 +27,6 @@ TEST_CASE("place words: relations and places in plain words") {
 }
 
 TEST_CASE("place words: lists, windows and laws") {
-    CHECK(enumeration({}) == "");
-    CHECK(enumeration({"a"}) == "a");
-    CHECK(enumeration({"a", "b", "c"}, " or ") == "a, b or c");
     CHECK(window_text({"S4", 1.2, 2}) == "S4, 1.2 to 2\xC2\xA0s");
     CHECK(window_text({"S4", 0, 0}) == "S4");
     CHECK(window_text({"", 0, 1}) == "0 to 1\xC2\xA0s");

@@ -16,12 +16,6 @@ namespace sivid {
 /// So many measurements are thinned before a fit looks at all of them.
 inline constexpr std::size_t many_measurements = 6000;
 
-[[nodiscard]] inline std::size_t measurement_count(identification_problem const& problem) {
-    std::size_t count = 0;
-    for (auto const& e : problem.experiments) count += e.measurements.size();
-    return count;
-}
-
 /// Which measurements of each experiment a fit looks at first, in the order of `sorted`: of each
 /// channel every n-th, and the last one, so that all its time is seen.
 /// @param most  about so many are left of all together

@@ -6,12 +6,11 @@
 
 #include <sivid/approximate/fit/detail/campaign.hpp>
 #include <sivid/approximate/fit/detail/descent.hpp>
-#include <sivid/approximate/fit/detail/fit_at.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -21,21 +20,6 @@
 namespace sivid {
 
 namespace approximate_detail {
-
-/// The time that a search for counterexamples may take.
-class counterexample_clock {
-public:
-    explicit counterexample_clock(counterexample_options const& options) : options_(&options) {}
-    [[nodiscard]] bool over(double share = 1) const {
-        if (options_->keep_going && !options_->keep_going()) return true;
-        auto const spent = std::chrono::steady_clock::now() - begin_;
-        return std::chrono::duration<double>(spent).count() > share * options_->seconds;
-    }
-
-private:
-    counterexample_options const* options_;
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 /// The point of a box next to another point.
 inline std::vector<double> nearest_in(box const& x, std::vector<double> p) {
@@ -151,7 +135,7 @@ SIVID_DECL bool find_explaining_point(identification_problem const& problem,
                                       counterexample_options const& options) {
     using namespace approximate_detail;
     if (excluded.empty() || !options.confirms) return false;
-    counterexample_clock const clock(options);
+    work_limit const limit(options.seconds, options.keep_going);
     fitter whole(problem);
     auto const explains = [&](approximate_fit const& f) {
         return !f.parameters.empty() && f.inflation <= 1 && options.confirms(f);
@@ -165,7 +149,7 @@ SIVID_DECL bool find_explaining_point(identification_problem const& problem,
     std::vector<tried_box> list;
     for (std::size_t k = 0; k < excluded.size(); ++k) {
         tried_box next{k, HUGE_VAL, relative_volume(excluded[k], problem.prior).upper()};
-        if (!best.parameters.empty() && !clock.over(0.5)) {
+        if (!best.parameters.empty() && limit() && 2 * limit.spent() < options.seconds) {
             auto const near = whole.at(nearest_in(excluded[k], best.parameters), best.starts);
             if (explains(near)) return true;
             next.inflation = near.inflation;
@@ -185,7 +169,7 @@ SIVID_DECL bool find_explaining_point(identification_problem const& problem,
            options.fits / 4);
     for (bool const near : {false, true}) {
         for (auto const& c : near ? promising : large) {
-            if (clock.over()) return false;
+            if (!limit()) return false;
             auto const own = within(problem, excluded[c.box]);
             if (near && best.parameters.empty()) continue;
             if (explains(near ? fitter(own)({nearest_in(own.prior, best.parameters)})
@@ -201,10 +185,10 @@ SIVID_DECL bool find_unexplained_point(identification_problem const& problem,
                                        std::vector<box> const& inside,
                                        counterexample_options const& options) {
     if (inside.empty() || !options.confirms) return false;
-    approximate_detail::counterexample_clock const clock(options);
+    work_limit const limit(options.seconds, options.keep_going);
     approximate_detail::corner_search search(problem);
     for (auto const& x : inside) {
-        if (clock.over()) return false;
+        if (!limit()) return false;
         if (search(x, options.confirms)) return true;
     }
     return false;

@@ -6,7 +6,6 @@
 
 #include <sivid/approximate/fit/detail/campaign.hpp>
 #include <sivid/approximate/fit/detail/descent.hpp>
-#include <sivid/approximate/fit/detail/fit_at.hpp>
 #include <sivid/approximate/fit/detail/minimax.hpp>
 #include <sivid/approximate/fit/detail/suspect_samples.hpp>
 #include <sivid/approximate/fit/detail/thinned.hpp>

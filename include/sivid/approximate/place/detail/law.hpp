@@ -5,6 +5,7 @@
 #include <sivid/approximate/place/detail/knot_trace.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
@@ -300,9 +301,9 @@ private:
             for (auto const i : same) sum += t.states[k][i] * t.states[k][i];
             return std::sqrt(sum);
         };
-        std::string norm;
-        for (auto const i : same) norm += (norm.empty() ? "" : "+") + about_->states[i].name + "^2";
-        norm = "sqrt(" + norm + ")";
+        auto const norm = "sqrt(" +
+                          joined(same, "+", [&](auto i) { return about_->states[i].name + "^2"; }) +
+                          ")";
         for (auto const i : same) {
             add(
                 laws, "speed*" + about_->states[i].name,

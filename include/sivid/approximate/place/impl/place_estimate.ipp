@@ -7,11 +7,11 @@
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/place/detail/law_search.hpp>
-#include <sivid/approximate/place/detail/missing_rate_scales.hpp>
+#include <sivid/approximate/place/detail/missing_rate.hpp>
 #include <sivid/approximate/place/detail/place_search.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -32,13 +32,12 @@ public:
         : problem_(&problem), options_(std::move(options)), base_(base) {}
 
     [[nodiscard]] place_estimate operator()() {
-        auto const begin = std::chrono::steady_clock::now();
+        stopwatch const clock;
         place_estimate result;
         result.base = base_ != nullptr ? *base_ : fitter(*problem_, options_.search.go_on)();
         result.inflation = result.base.inflation;
         if (!(result.base.inflation <= 1) && !result.base.parameters.empty()) search(result);
-        result.seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        result.seconds = clock.spent();
         return result;
     }
 

@@ -7,7 +7,7 @@
 #include <sivid/number/rounding.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/response/detail/difference_response.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -271,17 +271,14 @@ private:
         bool const first = most(a) >= most(b);
         auto& m = first ? of_first() : of_second();
         auto const& cut = first ? whole.a : whole.b;
-        auto const side = motion_cover::most(first ? a : b);
-        auto halves = side == motion_cover::none ? m.cover.split(cut) : m.cover.split(cut, side);
+        auto halves = m.cover.split_by(first ? a : b, cut);
         if (halves.empty() || m.cover.widest_share(cut) <= 1e-7) {
             pairs_[index].settled = true;
             return;
         }
         if (blur(m, cut) > 0.25) {
-            std::vector<motion_cover::part*> fresh;
-            for (auto& h : halves) fresh.push_back(&h);
-            for (auto* h : fresh) h->known = nullptr;
-            m.cover.learn(fresh);
+            for (auto& h : halves) h.known = nullptr;
+            m.cover.learn(halves);
         }
         pairs_.erase(pairs_.begin() + static_cast<std::ptrdiff_t>(index));
         for (auto& h : halves) {

@@ -98,9 +98,7 @@ public:
     /// The outputs at one instant by natural evaluation: exact where states and inputs are.
     /// @param x  a box that holds all states at t
     [[nodiscard]] std::vector<interval> at(double t, box const& x) {
-        look_.start(traits::point(t));
-        look_.advance(
-            0, [&x](std::size_t i, std::size_t) -> interval { return x[i]; }, inputs_over(t, t, t));
+        look_.evaluate(traits::point(t), x, inputs_over(t, t, t));
         std::vector<interval> result(flow_->channels(), traits::entire());
         for (std::size_t y = 0; y < result.size() && !look_.undefined(); ++y)
             result[y] = look_.output(y, 0);
@@ -194,9 +192,7 @@ private:
     }
     template <class Inputs>
     bool rates(interval const& times, box const& b, Inputs const& inputs) {
-        rate_.start(times);
-        rate_.advance(
-            0, [&b](std::size_t i, std::size_t) { return b[i]; }, inputs);
+        rate_.evaluate(times, b, inputs);
         return !rate_.undefined();
     }
     [[nodiscard]] bool held_input_changes(double at) const {

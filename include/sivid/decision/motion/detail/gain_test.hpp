@@ -8,9 +8,9 @@
 #include <sivid/decision/motion/detail/open_parts.hpp>
 #include <sivid/decision/motion/detail/verification_types.hpp>
 #include <sivid/decision/motion/detail/witness_search.hpp>
-#include <sivid/decision/prediction_options.hpp>
+#include <sivid/decision/prediction_problem.hpp>
 #include <sivid/paving/set_test.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -192,9 +192,7 @@ public:
             std::vector<motion_cover::part> parts;
             for (auto k = first; k < last; ++k)
                 parts.push_back(cover.within(cover.whole(), problem_.parameters(gains[k])));
-            std::vector<motion_cover::part*> several;
-            for (auto& p : parts) several.push_back(&p);
-            cover.learn(several);
+            cover.learn(parts);
             for (auto const& p : parts) result.push_back(motions_->judge(p).found);
         }
         return result;

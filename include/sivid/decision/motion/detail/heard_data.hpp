@@ -5,10 +5,9 @@
 #include <sivid/decision/motion/detail/idle_parts.hpp>
 #include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/paving/contract/detail/cut_contraction.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_limit.hpp>
 
-#include <chrono>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -33,7 +32,7 @@ public:
     /// Whether they refute all parameters of a part; false says nothing.
     [[nodiscard]] bool refute(motion_cover::part const& p) {
         auto const& problem = slim_->problem;
-        if (!problem.measured || !limit_() || 2 * heard_ > since(begun_)) return false;
+        if (!problem.measured || !limit_() || 2 * heard_ > clock_.spent()) return false;
         auto all = p.parameters;
         for (std::size_t j = 0; j < all.size(); ++j) {
             if (slim_->idle[j] || unmeasured_[j]) all[j] = around_[j];
@@ -41,27 +40,22 @@ public:
         auto key = ends_of(all);
         auto const said = said_.find(key);
         if (said != said_.end()) return said->second;
-        auto const asked = clock::now();
+        stopwatch const asking;
         auto const data = problem.measured(all, limit_);
         bool const refuted = !data.known.empty() && !cut_contraction()(data.known, all);
-        heard_ += since(asked);
+        heard_ += asking.spent();
         if (limit_()) said_.emplace(std::move(key), refuted);
         return refuted;
     }
 
 private:
-    using clock = std::chrono::steady_clock;
-    [[nodiscard]] static double since(clock::time_point t) {
-        return std::chrono::duration<double>(clock::now() - t).count();
-    }
-
     without_idle_parts const* slim_;
     box around_;
     work_limit limit_;
     std::vector<bool> unmeasured_;
     std::map<std::vector<double>, bool> said_;
-    clock::time_point begun_ = clock::now();
-    double heard_ = 0; ///< time
+    stopwatch clock_;
+    double heard_ = 0; ///< [s]
 };
 
 } // namespace sivid::decision_detail

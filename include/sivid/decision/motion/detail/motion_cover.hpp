@@ -53,7 +53,6 @@ public:
         std::vector<double> low, high, rest;
         std::vector<double> slope;     ///< [variable][instant * outputs + output]
         std::vector<double> curvature; ///< [variable]: its share in all rests
-        double radius_share = 0;       ///< the largest share of a rest that no split takes away
     };
 
     /// @param outputs  states first
@@ -82,6 +81,11 @@ public:
 
     /// Integrates over each of the parts, those with the same starts side by side.
     void learn(std::vector<part*> const& parts);
+    void learn(std::vector<part>& parts) {
+        std::vector<part*> all;
+        for (auto& p : parts) all.push_back(&p);
+        learn(all);
+    }
     /// @param roughly  over the part's own box instead of its sets: wider, and cheap
     [[nodiscard]] view look(part const& p, bool roughly = false) const;
     /// Bounds of one output on all segments (see `margin_bounds`): infinite where nothing is known.
@@ -115,6 +119,13 @@ public:
     [[nodiscard]] std::vector<part> split(part const& p, std::size_t side) const;
     /// The halves along the side that is widest against the whole; nothing when none can be cut.
     [[nodiscard]] std::vector<part> split(part const& p) const;
+    /// The halves along the side of the greatest score, or along the widest where no score is
+    /// above 0.
+    [[nodiscard]] std::vector<part> split_by(std::vector<double> const& scores,
+                                             part const& p) const {
+        auto const side = most(scores);
+        return side == none ? split(p) : split(p, side);
+    }
 
 private:
     [[nodiscard]] part with_sets(box initial, box parameters, std::vector<std::size_t> const& of,

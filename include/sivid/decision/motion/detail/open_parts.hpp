@@ -91,7 +91,7 @@ public:
             bool const stuck = i.says.reached < cover.times().back() && i.says.reached <= i.before;
             auto score = stuck ? reached_by_halves(i) : i.says.score; // of halves, further down
             auto parts = i.says.coarse ? std::vector<motion_cover::part>{} // not by smaller boxes
-                                       : halves_of(i.what, score);
+                                       : cover.split_by(score, i.what);
             if (parts.empty() || motions_->is_tiny(i.what)) {
                 i.settled = true;
                 continue;
@@ -111,7 +111,7 @@ public:
                 reduce(score);
                 std::vector<motion_cover::part> finer;
                 for (auto& p : parts) {
-                    auto cut = halves_of(p, score);
+                    auto cut = cover.split_by(score, p);
                     if (cut.empty()) cut.push_back(std::move(p));
                     for (auto& c : cut) finer.push_back(std::move(c));
                 }
@@ -152,22 +152,13 @@ private:
             tried.back().known = nullptr;
             sides.push_back(side);
         }
-        std::vector<motion_cover::part*> several;
-        for (auto& p : tried) several.push_back(&p);
-        if (!several.empty()) cover.learn(several);
+        if (!tried.empty()) cover.learn(tried);
         std::vector<double> score(cover.sides(), 0.0);
         for (std::size_t k = 0; k < tried.size(); ++k) {
             auto const reached = static_cast<double>(tried[k].known->reached);
             score[sides[k]] = 1 + reached + 0.9 * cover.share(i.what, sides[k]); // the wider of two
         }
         return score;
-    }
-    /// The halves along the side of the greatest score.
-    [[nodiscard]] std::vector<motion_cover::part>
-    halves_of(motion_cover::part const& p, std::vector<double> const& score) const {
-        auto const side = motion_cover::most(score);
-        return side == motion_cover::none ? motions_->cover().split(p)
-                                          : motions_->cover().split(p, side);
     }
     /// A side that was halved moves half as much.
     static void reduce(std::vector<double>& score) {

@@ -6,7 +6,7 @@
 #include <sivid/decision/motion/detail/judged_motions.hpp>
 #include <sivid/decision/motion/detail/verification_types.hpp>
 #include <sivid/paving/run_options.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cstddef>

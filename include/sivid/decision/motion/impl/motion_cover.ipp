@@ -193,10 +193,6 @@ SIVID_DECL motion_cover::view motion_cover::look(part const& p, bool roughly) co
     };
     if (p.sets.empty() || roughly) over(nullptr);
     for (std::size_t k = 0; k < p.sets.size() && !roughly; ++k) over(&problem_->sets[p.sets[k]]);
-    for (std::size_t y = 0; y < count; ++y) {
-        if (local.rest[y] > 0)
-            v.radius_share = std::max(v.radius_share, known.radius[y] / local.rest[y]);
-    }
     return v;
 }
 

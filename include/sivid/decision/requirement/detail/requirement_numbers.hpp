@@ -6,6 +6,7 @@
 #include <sivid/model/expression.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <array>
@@ -167,7 +168,7 @@ protected:
         auto const found = std::find_if(
             all.begin(), all.end(), [&](auto const& c) { return channel && c.name == *channel; });
         if (found == all.end())
-            words_.fail("no channel of the model", "the model has: " + names_of_list(all));
+            words_.fail("no channel of the model", "the model has: " + joined_names(all));
         words_.need(")", "close the bracket");
         return static_cast<std::size_t>(found - all.begin());
     }
@@ -201,13 +202,6 @@ protected:
         return number(position, numeric(position, [&] { return g().unary(*found, of.value); }));
     }
 
-    template <class Items>
-    static std::string names_of_list(Items const& items) {
-        std::string text;
-        for (auto const& i : items) text += (text.empty() ? "" : ", ") + std::string(i.name);
-        return text;
-    }
-
     operand quantity_of(std::string const& name, std::size_t position) {
         auto const& about = model_.about;
         auto const place = [&](auto const& items) -> std::optional<std::size_t> {
@@ -224,9 +218,9 @@ protected:
         if (auto const i = place(about.constants))
             return number(position, g().leaf(operation::constant, *i));
         if (name == "t") return number(position, g().leaf(operation::time, 0));
-        auto known = "states " + names_of_list(about.states) + "; channels " +
-                     names_of_list(about.channels) + "; inputs " + names_of_list(about.inputs) +
-                     "; constants " + names_of_list(about.constants) + "; t for the time";
+        auto known = "states " + joined_names(about.states) + "; channels " +
+                     joined_names(about.channels) + "; inputs " + joined_names(about.inputs) +
+                     "; constants " + joined_names(about.constants) + "; t for the time";
         words_.fail_at(position, "unknown name '" + name + "'", "known: " + known);
     }
 

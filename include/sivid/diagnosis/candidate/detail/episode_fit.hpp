@@ -6,7 +6,6 @@
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/candidate/detail/best_window.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
 #include <sivid/diagnosis/candidate/detail/deepest_valley.hpp>
 #include <sivid/diagnosis/candidate/detail/soft_switch.hpp>

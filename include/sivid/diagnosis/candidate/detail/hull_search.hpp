@@ -12,8 +12,8 @@
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,6 @@
 
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 
-#include <sivid/diagnosis/candidate/detail/seen_input.hpp>
 #include <sivid/measurement/detail/widened_signal.hpp>
 #include <sivid/number/interval_traits.hpp>
 

@@ -7,7 +7,6 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/hull_search.hpp>
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
-#include <sivid/diagnosis/candidate/detail/seen_input.hpp>
 #include <sivid/measurement/detail/widened_signal.hpp>
 
 #include <algorithm>

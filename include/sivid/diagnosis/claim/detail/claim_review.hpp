@@ -9,6 +9,7 @@
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/model/named_effects.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/paving/relation/detail/untouched_relation.hpp>
 
 #include <algorithm>
@@ -83,9 +84,7 @@ inline void review_relations(diagnosis_run& run) {
             if (at != d.causes.end() && keeps) at->untouched.push_back(f.name);
             bool const proved = at != d.causes.end() && at->verdict == cause_verdict::explains;
             if (!f.proved || !reason.empty() || (!proved && !s.figures.explains())) continue;
-            std::string who;
-            for (auto const& n : names) who += (who.empty() ? "" : " + ") + n;
-            if (who.empty()) who = "the model as it is";
+            auto who = names.empty() ? "the model as it is" : joined(names, " + ");
             who += proved ? " explains the data" : " seems to explain the data";
             if (keeps) {
                 reason = who + " and leaves it as it is";
@@ -103,9 +102,8 @@ inline void review_relations(diagnosis_run& run) {
             c.excluded_by.clear();
             c.assumptions.clear();
             c.verdict = cause_verdict::undecided;
-            std::string who;
-            for (auto const& n : c.effects) who += (who.empty() ? "" : " + ") + n;
-            d.withdrawn.push_back({"cause " + who + " excluded", "by the relation " + f.name});
+            d.withdrawn.push_back(
+                {"cause " + joined(c.effects, " + ") + " excluded", "by the relation " + f.name});
         }
     }
     if (standing.size() == run.findings.size()) return;

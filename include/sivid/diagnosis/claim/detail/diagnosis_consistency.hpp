@@ -4,6 +4,7 @@
 
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -77,10 +78,7 @@ private:
         return !is_empty(x) && x.lower() >= 0 && x.lower() <= x.upper();
     }
     [[nodiscard]] static std::string text(std::vector<std::string> const& effects) {
-        if (effects.empty()) return "the model as it is";
-        std::string result;
-        for (auto const& e : effects) result += (result.empty() ? "" : " + ") + e;
-        return result;
+        return effects.empty() ? "the model as it is" : sivid::joined(effects, " + ");
     }
 
     void gap() {

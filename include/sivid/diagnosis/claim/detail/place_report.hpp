@@ -4,6 +4,7 @@
 
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/paving/relation/relation_finding.hpp>
 
 #include <algorithm>
@@ -134,11 +135,8 @@ reported(place_estimate const& estimate, std::vector<relation_finding> const& fi
         }
     }
     if (result.empty()) return result;
-    for (auto const& set : estimate.alternatives) {
-        std::string text;
-        for (auto const& name : set) text += (text.empty() ? "" : " and ") + name;
-        result.front().alternatives.push_back(text);
-    }
+    for (auto const& set : estimate.alternatives)
+        result.front().alternatives.push_back(joined(set, " and "));
     return result;
 }
 

@@ -20,22 +20,20 @@ using next_part = std::function<bool(std::string const&)>;
 
 namespace diagnosis_detail {
 
-inline std::size_t count_measurements(identification_problem const& p) {
-    std::size_t count = 0;
-    for (auto const& e : p.experiments) count += e.measurements.size();
-    return count;
-}
-
-struct named_part {
-    std::string name;
-    identification_problem problem;
-};
-
-inline std::vector<named_estimate> inflation_of_parts(identification_problem const& p,
-                                                      inflation_range const& whole,
-                                                      std::vector<named_part> const& parts,
-                                                      inflation_options const& each,
-                                                      next_part const& next) {
+/// @param names    one for each part
+/// @param belongs  (part, experiment, measurement): whether it is one of the part's. Parts without
+///                 any are left out.
+template <class Names, class Belongs>
+[[nodiscard]] std::vector<named_estimate>
+inflation_of_parts(identification_problem const& p, inflation_range const& whole,
+                   Names const& names, Belongs const& belongs, inflation_options const& each,
+                   next_part const& next) {
+    std::vector<std::pair<std::string, identification_problem>> parts;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        auto part =
+            restricted_to(p, [&](std::size_t e, measurement const& m) { return belongs(k, e, m); });
+        if (!part.experiments.empty()) parts.emplace_back(names[k].name, std::move(part));
+    }
     std::vector<std::optional<named_estimate>> found(parts.size());
     std::mutex asking;
     bool stopped = false;
@@ -46,7 +44,7 @@ inline std::vector<named_estimate> inflation_of_parts(identification_problem con
             stopped = stopped || !next(name);
             if (stopped) return;
         }
-        bool const all = count_measurements(part) == count_measurements(p);
+        bool const all = measurement_count(part) == measurement_count(p);
         auto const proved = all ? whole : bound_inflation(part, nullptr, each).value;
         found[k] = named_estimate{name, "1", proved.upper(), proved};
     });
@@ -65,12 +63,9 @@ inline std::vector<named_estimate> inflation_of_parts(identification_problem con
 [[nodiscard]] inline std::vector<named_estimate>
 inflation_of_experiments(identification_problem const& p, inflation_range const& whole,
                          inflation_options const& each, next_part const& next) {
-    std::vector<diagnosis_detail::named_part> parts;
-    for (std::size_t s = 0; s < p.experiments.size(); ++s) {
-        auto part = restricted_to(p, [s](std::size_t e, measurement const&) { return e == s; });
-        if (!part.experiments.empty()) parts.push_back({p.experiments[s].name, std::move(part)});
-    }
-    return diagnosis_detail::inflation_of_parts(p, whole, parts, each, next);
+    return diagnosis_detail::inflation_of_parts(
+        p, whole, p.experiments,
+        [](std::size_t k, std::size_t e, measurement const&) { return e == k; }, each, next);
 }
 
 /// Certified inflation of every channel alone, over all experiments; channels that were not
@@ -78,14 +73,10 @@ inflation_of_experiments(identification_problem const& p, inflation_range const&
 [[nodiscard]] inline std::vector<named_estimate>
 inflation_of_channels(identification_problem const& p, inflation_range const& whole,
                       inflation_options const& each, next_part const& next) {
-    std::vector<diagnosis_detail::named_part> parts;
-    auto const& channels = p.model.about.channels;
-    for (std::size_t y = 0; y < channels.size(); ++y) {
-        auto part =
-            restricted_to(p, [y](std::size_t, measurement const& m) { return m.channel == y; });
-        if (!part.experiments.empty()) parts.push_back({channels[y].name, std::move(part)});
-    }
-    return diagnosis_detail::inflation_of_parts(p, whole, parts, each, next);
+    return diagnosis_detail::inflation_of_parts(
+        p, whole, p.model.about.channels,
+        [](std::size_t k, std::size_t, measurement const& m) { return m.channel == k; }, each,
+        next);
 }
 
 } // namespace sivid

@@ -17,9 +17,7 @@ template <class I>
 double dissipative_step<I>::stiffness(double t, basic_box<I> const& x) {
     I const time = traits::point(t);
     input_pieces<I> const inputs(*flow_, t, time);
-    jacobian_.start(time);
-    jacobian_.advance(
-        0, [&x](std::size_t i, std::size_t) { return x[i]; }, inputs);
+    jacobian_.evaluate(time, x, inputs);
     std::vector<double> rows(flow_->states(), 0.0);
     for (auto const& e : flow_->entries()) {
         if (e.column < rows.size()) rows[e.row] += traits::mag(jacobian_.output(e.output, 0));
@@ -165,9 +163,7 @@ std::optional<step_map<I>> dissipative_step<I>::map(double from, double to,
     // The Jacobian by states and parameters on all of it, as centre and radius, and M.
     I const times = traits::bounds(from, to);
     input_pieces<I> const inputs(*flow_, from, times);
-    jacobian_.start(times);
-    jacobian_.advance(
-        0, [&](std::size_t i, std::size_t) { return around[i]; }, inputs);
+    jacobian_.evaluate(times, around, inputs);
     if (jacobian_.undefined() || jacobian_.jumped()) return std::nullopt;
     auto const size = static_cast<Eigen::Index>(columns);
     auto const states = static_cast<Eigen::Index>(n);

@@ -94,9 +94,7 @@ public:
 private:
     [[nodiscard]] std::optional<basic_box<I>> rates(I const& times, basic_box<I> const& x,
                                                     input_pieces<I> const& inputs) {
-        rate_.start(times);
-        rate_.advance(
-            0, [&x](std::size_t i, std::size_t) { return x[i]; }, inputs);
+        rate_.evaluate(times, x, inputs);
         if (rate_.undefined() || rate_.jumped()) return std::nullopt;
         basic_box<I> result(x.size());
         for (std::size_t i = 0; i < x.size(); ++i) result[i] = rate_.output(i, 0);
@@ -105,9 +103,7 @@ private:
     /// \f$ \partial f_i / \partial x_i \f$: guides the search only.
     [[nodiscard]] basic_box<I> own_slopes(I const& times, basic_box<I> const& x,
                                           input_pieces<I> const& inputs) {
-        jacobian_.start(times);
-        jacobian_.advance(
-            0, [&x](std::size_t i, std::size_t) { return x[i]; }, inputs);
+        jacobian_.evaluate(times, x, inputs);
         basic_box<I> result(x.size());
         for (auto const& e : flow_->entries()) {
             if (e.row == e.column) result[e.row] = jacobian_.output(e.output, 0);

@@ -5,6 +5,7 @@
 #include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/text/csv_table.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <cstddef>
 #include <optional>

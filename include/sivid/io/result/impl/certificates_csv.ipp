@@ -4,6 +4,8 @@
 
 #include <sivid/io/result/certificates_csv.hpp>
 
+#include <sivid/number/text/joined.hpp>
+
 namespace sivid {
 
 namespace io_detail {
@@ -81,10 +83,8 @@ SIVID_DECL std::string certificates_csv(exclusion_proof const& proof) {
 
 SIVID_DECL exclusion_proof read_certificates(csv_table const& table) {
     using kind = proof_step::kind;
-    std::string headings;
-    for (auto const& h : table.headings()) headings += (headings.empty() ? "" : ",") + h;
     auto const remedy = "remove the file: the check then proves more by itself";
-    if (headings != io_detail::certificate_headings) {
+    if (joined(table.headings(), ",") != io_detail::certificate_headings) {
         table.fail(table.heading_line(),
                    std::string{"the columns are not "} + io_detail::certificate_headings, remedy);
     }

@@ -6,6 +6,8 @@
 
 #include <sivid/io/text/json_document.hpp>
 
+#include <sivid/number/text/joined.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -70,9 +72,8 @@ SIVID_DECL json_value const& json_value::at(std::string_view name) const {
 SIVID_DECL void json_value::allow_only(std::initializer_list<std::string_view> keys) const {
     for (std::size_t i = 0; i < members().size(); ++i) {
         if (std::find(keys.begin(), keys.end(), names_[i]) != keys.end()) continue;
-        std::string known;
-        for (auto key : keys) known += text_of(known.empty() ? "" : ", ", key);
-        children_[i].fail(text_of("unknown key ", in_quotes(names_[i])), "known here: " + known);
+        children_[i].fail(text_of("unknown key ", in_quotes(names_[i])),
+                          "known here: " + joined(keys));
     }
 }
 

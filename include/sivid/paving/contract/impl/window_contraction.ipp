@@ -11,10 +11,9 @@
 #include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -29,7 +28,6 @@ namespace paving_detail {
 
 class window_contractor {
     using traits = interval_traits<interval>;
-    using clock = std::chrono::steady_clock;
 
 public:
     window_contractor(identification_problem const& problem, window_options const& options)
@@ -48,7 +46,7 @@ public:
     }
 
     [[nodiscard]] window_contraction operator()() {
-        auto const begin = clock::now();
+        stopwatch const clock;
         auto const& run = options_.run;
         bool const as_asked = run.set == carried_set::taylor_model && !run.enclosure.method &&
                               run.make == nullptr; // else by other means than these
@@ -63,7 +61,7 @@ public:
             }
             if (!result_.empty()) contract_together(some_of(std::move(chain)));
         }
-        result_.seconds = std::chrono::duration<double>(clock::now() - begin).count();
+        result_.seconds = clock.spent();
         return std::move(result_);
     }
 

@@ -17,9 +17,9 @@
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/response/misfit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -307,12 +307,9 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
     if (fit.choice.unknown != holdout.choice.unknown) {
         throw std::invalid_argument("holdout_inflation: the problems have other parameters");
     }
-    auto const begin = std::chrono::steady_clock::now();
-    auto const elapsed = [&begin] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    };
+    stopwatch const clock;
     auto const in_time = [&] {
-        return elapsed() < options.seconds && !options.test.run.enclosure.cancelled();
+        return clock.spent() < options.seconds && !options.test.run.enclosure.cancelled();
     };
     auto timely = options;
     timely.test = limited(options.test, in_time);
@@ -351,11 +348,12 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
     for (double const share : {0.3, 1.0}) {
         bool const last = share == 1;
         if (!last && !some_starts) continue;
-        double const end = last ? options.seconds : elapsed() + 0.6 * (options.seconds - elapsed());
+        double const end =
+            last ? options.seconds : clock.spent() + 0.6 * (options.seconds - clock.spent());
         paving_detail::holdout_range search(
             paving_detail::started_near(posed, fit.experiments.size(), likely_starts, share),
             fit.experiments.size(), fitted.value.upper(), start, good, last, timely);
-        search.narrow(options.work, [&] { return elapsed() < end && go_on(); });
+        search.narrow(options.work, [&] { return clock.spent() < end && go_on(); });
         auto const found = search.range();
         result.boxes += search.tested();
         result.integrations += search.integrations();
@@ -372,7 +370,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         }
         if (result.over_fits.upper() <= good || !go_on()) break;
     }
-    result.seconds = elapsed();
+    result.seconds = clock.spent();
     return result;
 }
 

@@ -17,10 +17,9 @@
 #include <sivid/paving/judge/detail/equation_aided_test.hpp>
 #include <sivid/paving/judge/detail/equation_guide.hpp>
 #include <sivid/paving/judge/detail/shape_contraction.hpp>
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -96,8 +95,7 @@ inline std::optional<window_contraction>
 contract_by_slower_inputs(data_test& exact, identification_problem const& posed, box const& fitted,
                           std::vector<box> const& starts, identify_options const& options,
                           work_limit const& limit) {
-    using clock = std::chrono::steady_clock;
-    auto const begin = clock::now();
+    stopwatch const clock;
     double const period = 10 * sample_period(posed);
     if (!(period > 0)) return std::nullopt;
     if (!(exact.reached(posed.prior) < 0.25)) return std::nullopt;
@@ -106,9 +104,6 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
     data_test test(*slow, options.test);
     if (!limit() || seen_sharply(test, *slow, fitted, starts) < 0.25) return std::nullopt;
     double const most = 0.5 * limit.seconds();
-    auto const spent = [begin] {
-        return std::chrono::duration<double>(clock::now() - begin).count();
-    };
     window_contraction result;
     result.rest = posed.prior;
     for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
@@ -127,7 +122,7 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
     search.proof_bytes = 0;
     search.checkpoint = nullptr;
     search.resume = nullptr;
-    search.seconds = most - spent();
+    search.seconds = most - clock.spent();
     if (!result.empty() && search.seconds > 0) {
         further.set_rest(result.rest);
         auto const found = invert(further, posed.prior, search);
@@ -137,7 +132,7 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
     if (!shrunk && result.windows == 0) return std::nullopt;
     result.integrations = further.integrations();
     result.input_period = period;
-    result.seconds = spent();
+    result.seconds = clock.spent();
     return result;
 }
 
@@ -147,14 +142,12 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
                                                                identification_problem const& posed,
                                                                work_limit const& limit) {
     if (posed.model.has_memory() || !(test.reached(posed.prior) < 0.25)) return std::nullopt;
-    auto const begin = std::chrono::steady_clock::now();
     work_limit const own(0.15 * limit.seconds(), limit);
     window_contraction result;
     result.rest = contract_without_runs(posed, {.keep_going = own});
     if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
     for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = own.spent();
     return result;
 }
 

@@ -7,10 +7,9 @@
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/curve/shaped_problem.hpp>
 #include <sivid/paving/identify_options.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_limit.hpp>
 
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -102,14 +101,12 @@ private:
 inline std::optional<window_contraction> contract_by_shapes(identification_problem const& posed,
                                                             identify_options const& options,
                                                             work_limit const& limit) {
-    auto const begin = std::chrono::steady_clock::now();
     work_limit const own(0.9 * limit.seconds(), limit);
     auto shaped = shaped_problem::of(posed, own);
     if (!shaped) return std::nullopt;
     auto result = shape_contractor(*shaped, options, own)();
     if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = own.spent();
     return result;
 }
 

@@ -7,8 +7,8 @@
 #include <sivid/paving/search/detail/hull_rest.hpp>
 #include <sivid/paving/search/frontier.hpp>
 #include <sivid/paving/verdict.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cstddef>

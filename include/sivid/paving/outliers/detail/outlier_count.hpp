@@ -8,9 +8,9 @@
 #include <sivid/paving/outliers/detail/outlier_search_options.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -132,11 +132,9 @@ public:
     std::size_t operator()(std::size_t goal, Promising&& promising) {
         auto& policy = search_.policy();
         policy.goal = goal;
-        auto const begin = std::chrono::steady_clock::now();
+        work_limit const limit(options_.seconds);
         std::function<bool()> const go_on = [&] {
-            return !policy.cancelled() && boxes() < options_.boxes &&
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
-                           .count() <= options_.seconds;
+            return !policy.cancelled() && boxes() < options_.boxes && limit();
         };
         while (auto const* next = search_.next()) {
             if (bound() >= policy.goal || !go_on()) break;

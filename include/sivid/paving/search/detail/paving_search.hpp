@@ -11,8 +11,8 @@
 #include <sivid/paving/search/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/subpaving.hpp>
+#include <sivid/work_limit.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -175,8 +175,6 @@ public:
     }
 
 private:
-    using clock = std::chrono::steady_clock;
-
     void restore(search_state const& s) {
         if constexpr (resumable_set_test<Test>) {
             s.require_valid();
@@ -205,9 +203,7 @@ private:
         }
     }
 
-    [[nodiscard]] double seconds() const {
-        return earlier_ + std::chrono::duration<double>(clock::now() - begin_).count();
-    }
+    [[nodiscard]] double seconds() const { return earlier_ + clock_.spent(); }
     [[nodiscard]] bool checkpoint_due() const {
         double const since = seconds() - written_at_;
         return since >= options_.checkpoint_seconds && since >= 10 * writing_;
@@ -389,7 +385,7 @@ private:
     /// A state without them could not be told from one that lost a box.
     bool outside_kept_;
     std::optional<double> stopped_at_; ///< when a budget, or what was reached, ended the search
-    clock::time_point begin_ = clock::now();
+    stopwatch clock_;
     double earlier_ = 0;    ///< seconds of the runs before
     double written_at_ = 0; ///< of the last checkpoint, and what it took
     double writing_ = 0;

@@ -5,6 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/report/detail/reach_words.hpp>
 #include <sivid/report/draw/detail/paving_projections.hpp>
@@ -154,7 +155,7 @@ private:
             }
             std::string note;
             if (members.size() > 1) {
-                note = joined(members) + " are known only through " +
+                note = enumeration(members) + " are known only through " +
                        (found_.combinations.size() == 1 ? formula_text(c.what.formula)
                                                         : std::string{"such combinations"}) +
                        " on these data: the model's equations contain them in no other way, so "
@@ -186,7 +187,7 @@ private:
             sides.push_back((product ? formula_text(side->product->formula) : names()[j]) + " in " +
                             *range + (unit.empty() ? "" : " " + unit));
         }
-        view_.inside_box = joined(sides);
+        view_.inside_box = enumeration(sides);
     }
 
     void add_witness() {

@@ -3,6 +3,7 @@
 #define SIVID_REPORT_WORDS_DETAIL_PLACE_WORDS_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/draw/candidate_chart.hpp>
 #include <sivid/report/identification_words.hpp>
@@ -23,10 +24,6 @@ namespace sivid::report {
 inline constexpr std::string_view proved_mark = "\xE2\x9C\x93\xC2\xA0proved";
 inline constexpr std::string_view estimate_mark = "\xE2\x89\x88\xC2\xA0"
                                                   "estimate";
-
-/// "a, b and c"
-[[nodiscard]] SIVID_DECL std::string enumeration(std::vector<std::string> const& all,
-                                                 std::string_view last = " and ");
 
 [[nodiscard]] SIVID_DECL std::string capitalised(std::string text);
 

@@ -4,16 +4,9 @@
 
 #include <sivid/report/words/detail/place_words.hpp>
 
-namespace sivid::report {
+#include <sivid/number/text/joined.hpp>
 
-SIVID_DECL std::string enumeration(std::vector<std::string> const& all, std::string_view last) {
-    std::string out;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        out += i == 0 ? "" : i + 1 == all.size() ? std::string{last} : ", ";
-        out += all[i];
-    }
-    return out;
-}
+namespace sivid::report {
 
 SIVID_DECL std::string capitalised(std::string text) {
     if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
@@ -82,9 +75,7 @@ SIVID_DECL std::string relation_words(relation_view const& r) {
         windows.push_back(window_text(r.windows[i]));
     }
     if (!windows.empty()) {
-        std::string list;
-        for (std::string const& w : windows) list += (list.empty() ? "" : "; ") + w;
-        out += " Shown by " + list;
+        out += " Shown by " + joined(windows, "; ");
         out += r.windows.size() > most ? " and " + count_text(r.windows.size() - most) + " more."
                                        : ".";
     }

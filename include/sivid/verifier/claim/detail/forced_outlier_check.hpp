@@ -4,9 +4,9 @@
 
 #include <sivid/paving/run/plain_run.hpp>
 #include <sivid/verifier/claim/detail/identification_consistency.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -106,11 +106,7 @@ template <class I>
                                          enclosure_options const& how, double seconds) {
     using outcome = check_finding::outcome;
     std::string const what = "proved outliers";
-    auto const begin = std::chrono::steady_clock::now();
-    auto const in_time = [&] {
-        std::chrono::duration<double> const spent = std::chrono::steady_clock::now() - begin;
-        return spent.count() <= seconds;
-    };
+    work_limit const in_time(seconds);
     bool any = false;
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& own = problem.experiments[e];

@@ -3,7 +3,6 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_IDENTIFICATION_CHECK_WORK_HPP
 
 #include <sivid/io/result/detail/stored_identification.hpp>
-#include <sivid/paving/work_limit.hpp>
 #include <sivid/verifier/claim/detail/check_finding.hpp>
 #include <sivid/verifier/claim/detail/drawing_check.hpp>
 #include <sivid/verifier/claim/detail/fewest_outliers_check.hpp>
@@ -13,9 +12,9 @@
 #include <sivid/verifier/claim/detail/identification_consistency.hpp>
 #include <sivid/verifier/claim/detail/paving_check.hpp>
 #include <sivid/verifier/claim/detail/product_check.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -47,10 +46,9 @@ public:
     std::vector<check_finding> operator()(std::function<void(check_finding const&)> const& tell) {
         std::vector<check_finding> all;
         auto const add = [&](auto const& work) {
-            auto const begin = std::chrono::steady_clock::now();
+            stopwatch const clock;
             all.push_back(work());
-            all.back().seconds =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            all.back().seconds = clock.spent();
             if (tell) tell(all.back());
         };
         stored_products rebuilt;

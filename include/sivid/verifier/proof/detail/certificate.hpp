@@ -5,9 +5,9 @@
 #include <sivid/space/box_cover.hpp>
 #include <sivid/verifier/proof/detail/certificate_options.hpp>
 #include <sivid/verifier/proof/detail/plain_campaign.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -48,7 +48,7 @@ public:
     /// Tries the claims that are open.
     void operator()(std::vector<box_claim>& claims) {
         claims_ = &claims;
-        begin_ = clock::now();
+        limit_ = work_limit(options_.seconds, options_.keep_going);
         left_.assign(claims.size(), 0);
         spent_.assign(claims.size(), 0);
         gave_up_.assign(claims.size(), false);
@@ -62,7 +62,6 @@ public:
     }
 
 private:
-    using clock = std::chrono::steady_clock;
     using status = box_claim::status;
     struct piece {
         box set;
@@ -74,10 +73,7 @@ private:
     [[nodiscard]] bool is_inside(piece const& p) const {
         return (*claims_)[p.claim].what == box_claim::kind::inside;
     }
-    [[nodiscard]] bool over() const {
-        if (options_.keep_going && !options_.keep_going()) return true;
-        return std::chrono::duration<double>(clock::now() - begin_).count() > options_.seconds;
-    }
+    [[nodiscard]] bool over() const { return !limit_(); }
     void prove(piece const& p) {
         if (--left_[p.claim] == 0 && !gave_up_[p.claim]) {
             (*claims_)[p.claim].found = status::proved;
@@ -210,7 +206,7 @@ private:
     std::vector<box_claim>* claims_ = nullptr;
     std::vector<std::size_t> left_, spent_; ///< pieces to prove, single runs spent, by claim
     std::vector<bool> gave_up_;
-    clock::time_point begin_;
+    work_limit limit_{0};
 };
 
 } // namespace sivid

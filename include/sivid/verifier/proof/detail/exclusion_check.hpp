@@ -10,9 +10,9 @@
 #include <sivid/verifier/proof/detail/proof_walk.hpp>
 #include <sivid/verifier/proof/detail/response_audit.hpp>
 #include <sivid/verifier/proof/detail/weighted_outputs.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -46,10 +46,7 @@ public:
 
     [[nodiscard]] std::size_t runs() const { return count_; }
     /// Whether the time is up.
-    [[nodiscard]] bool over() const {
-        if (options_.keep_going && !options_.keep_going()) return true;
-        return std::chrono::duration<double>(clock::now() - begin_).count() > options_.seconds;
-    }
+    [[nodiscard]] bool over() const { return !limit_(); }
 
     /// Follows a proof from the prior on: each step is proved by its weights, or else by weights of
     /// the check's own.
@@ -100,7 +97,6 @@ public:
     }
 
 private:
-    using clock = std::chrono::steady_clock;
     struct piece {
         box set;
         std::size_t claim;
@@ -348,7 +344,7 @@ private:
     std::vector<std::size_t> left_; ///< pieces to prove, by claim
     std::vector<bool> gave_up_;
     std::size_t count_ = 0, contradictions_ = 0, steps_ = 0, by_weights_ = 0;
-    clock::time_point begin_ = clock::now();
+    work_limit limit_{options_.seconds, options_.keep_going};
 };
 
 } // namespace sivid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/work_limit.hpp>
+#include <sivid/work_limit.hpp>
 
 #include "support/catch.hpp"
 
@@ -53,4 +53,17 @@ TEST_CASE("any number of seconds will do") {
     double const inf = std::numeric_limits<double>::infinity();
     for (double const seconds : {1e9, 1e300, inf}) CHECK(work_limit(seconds)());
     for (double const seconds : {-1.0, 0.0, -inf, std::nan("")}) CHECK_FALSE(work_limit(seconds)());
+}
+
+TEST_CASE("what is spent counts from the begin, of copies too") {
+    using namespace std::chrono_literals;
+    sivid::stopwatch const clock;
+    work_limit const limit(0);
+    std::this_thread::sleep_for(20ms);
+    auto const copy = limit;
+    auto const same = clock;
+    for (double const spent : {clock.spent(), same.spent(), limit.spent(), copy.spent()}) {
+        CHECK(spent >= 0.02);
+        CHECK(spent < 10);
+    }
 }

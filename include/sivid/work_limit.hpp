@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_WORK_LIMIT_HPP
-#define SIVID_PAVING_WORK_LIMIT_HPP
+#ifndef SIVID_WORK_LIMIT_HPP
+#define SIVID_WORK_LIMIT_HPP
 
 #include <algorithm>
 #include <atomic>
@@ -10,6 +10,20 @@
 #include <utility>
 
 namespace sivid {
+
+/// Tells how long something takes, by a clock that nobody sets. Copies have the same begin.
+class stopwatch {
+    using clock = std::chrono::steady_clock;
+
+public:
+    /// Time since it was made [s].
+    [[nodiscard]] double spent() const {
+        return std::chrono::duration<double>(clock::now() - begin_).count();
+    }
+
+private:
+    clock::time_point begin_ = clock::now();
+};
 
 /// How long work may go on: until a time, and as long as somebody does not say stop. Copies share
 /// one end; a copy is what all the options called `keep_going` take, for any thread.
@@ -36,6 +50,8 @@ public:
         clock::duration const rest{shared_->end - clock::now().time_since_epoch().count()};
         return std::max(0.0, std::chrono::duration<double>(rest).count());
     }
+    /// Time since the limit was made [s].
+    [[nodiscard]] double spent() const { return watch_.spent(); }
     /// For what completes the work: at least so much from now on. Who said stop before is obeyed by
     /// allowing no more than that, and is not asked again.
     /// @given  nobody works by this limit meanwhile
@@ -67,6 +83,7 @@ private:
     }
 
     std::shared_ptr<state> shared_;
+    stopwatch watch_;
 };
 
 } // namespace sivid
