@@ -355,7 +355,7 @@ TEST_CASE("outputs by states, parameters and inputs") {
         CHECK(support::encloses_reference(y(2, 0), -e / ((x0 * e - 2) * (x0 * e - 2))));
     }
     CHECK(width(y(1, 0)) < 1e-9);
-    CHECK(mag(y(1, 1)) == 0);
+    CHECK(mag(y(1, 1)) < 1e-200); // nothing but bounds of underflows
     // x = 1 within the set: Clarke's derivative of the kink; x = 2 outside it.
     auto const kink = found[0].over_box(1, 0);
     CHECK(kink.lower() <= -std::exp(0.6));
