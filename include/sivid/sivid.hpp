@@ -120,7 +120,6 @@
 #include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
 #include <sivid/enclosure/sensitivity/sensitive_flow.hpp>
-#include <sivid/enclosure/sensitivity/sensitivity_tube.hpp>
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/doubleton.hpp>

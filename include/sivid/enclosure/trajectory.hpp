@@ -75,11 +75,6 @@ public:
     [[nodiscard]] double time() const { return set_.time; }
     [[nodiscard]] doubleton<I> const& set() const { return set_; }
     [[nodiscard]] tube_step<I> const& last() const { return last_; }
-    /// Encloses \f$ \partial x(to) / \partial (x(from), p) \f$ of the last step for every member of
-    /// its set, if it exists: see `stepper::derivative`. After a step, before the next.
-    [[nodiscard]] std::optional<interval_matrix<I>> last_derivative() {
-        return stepper_.last_derivative(last_);
-    }
     [[nodiscard]] std::optional<enclosure_failure> const& failure() const { return failure_; }
     [[nodiscard]] sivid::ensemble<I> const& ensemble() const { return *ensemble_; }
     [[nodiscard]] std::size_t steps() const { return steps_; }

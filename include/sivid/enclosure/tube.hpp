@@ -60,17 +60,6 @@ public:
     /// A box that contains all states at time t.
     [[nodiscard]] basic_box<I> at(double t) const { return set_at(t).hull; }
 
-    /// Index of the step with from < t <= to, or 0 at the begin.
-    /// @throws std::out_of_range outside [begin_time, end_time], and without a step
-    [[nodiscard]] std::size_t step_index(double t) const {
-        if (steps_.empty() || !(t >= begin_time() && t <= end_time())) {
-            throw std::out_of_range("tube: time outside the proved span");
-        }
-        auto const found =
-            std::lower_bound(steps_.begin(), steps_.end(), t,
-                             [](tube_step<I> const& s, double time) { return s.to < time; });
-        return static_cast<std::size_t>(found - steps_.begin());
-    }
     /// A box that contains all states at all times in [from, to].
     [[nodiscard]] basic_box<I> over(double from, double to) const {
         if (!(from <= to))
@@ -83,12 +72,6 @@ public:
         return result;
     }
 
-    /// Encloses \f$ \partial x(t) / \partial (x(from), p) \f$ over the k-th step, which begins at
-    /// `from`, for all members: see `stepper::derivative`.
-    /// @param t  in (from, to] of that step
-    [[nodiscard]] std::optional<interval_matrix<I>> step_derivative(std::size_t k, double t) const {
-        return stepper_->derivative(steps_[k], t);
-    }
     [[nodiscard]] sivid::ensemble<I> const& ensemble() const { return *ensemble_; }
 
     /// Encloses the channels at time t.
@@ -105,7 +88,14 @@ public:
 
 private:
     /// The step with from < t <= to, or the first one at the begin.
-    [[nodiscard]] tube_step<I> const& step_at(double t) const { return steps_[step_index(t)]; }
+    /// @throws std::out_of_range outside [begin_time, end_time], and without a step
+    [[nodiscard]] tube_step<I> const& step_at(double t) const {
+        if (steps_.empty() || !(t >= begin_time() && t <= end_time())) {
+            throw std::out_of_range("tube: time outside the proved span");
+        }
+        return *std::lower_bound(steps_.begin(), steps_.end(), t,
+                                 [](tube_step<I> const& s, double time) { return s.to < time; });
+    }
 
     std::shared_ptr<flow const> flow_;
     std::unique_ptr<sivid::ensemble<I>> ensemble_;

@@ -334,6 +334,34 @@ TEST_CASE("the hovercraft's outputs by its parameters, over a box") {
     CHECK(width(found[1].over_box(0, 6)) < 10);
 }
 
+TEST_CASE("outputs by states, parameters and inputs") {
+    // y0 = p x^2, y1 = |x - 1| + u, y2 = 1/(x - 2)
+    auto const m = support::model_of(
+        {1, 1, 1},
+        [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{x[0]}; },
+        [](auto const&, auto const& x, auto const& p, auto const& u) {
+            return std::vector{p[0] * sqr(x[0]), abs(x[0] - 1) + u[0], 1 / (x[0] - 2)};
+        });
+    auto const f = support::flow_of(m, {sampled_signal({0, 2}, {0, 3}, interpolation::linear)});
+    auto const found = sensitivities_at(*f, sharp(12, 1e-13), box{between(0.5, 0.625)},
+                                        box{interval(3.0)}, 0, {0.6, 1.0});
+    REQUIRE(found.size() == 2);
+    auto const y = [&](std::size_t k, std::size_t c) { return found[1].over_box(k, c); };
+    extended const e = std::exp(1.0L);
+    for (extended const x0 : {0.5L, 0.6L, 0.625L}) {
+        CHECK(support::encloses_reference(y(0, 0), 6 * x0 * e * e));
+        CHECK(support::encloses_reference(y(0, 1), x0 * x0 * e * e));
+        CHECK(support::encloses_reference(y(1, 0), e));
+        CHECK(support::encloses_reference(y(2, 0), -e / ((x0 * e - 2) * (x0 * e - 2))));
+    }
+    CHECK(width(y(1, 0)) < 1e-9);
+    CHECK(mag(y(1, 1)) < 1e-200); // nothing but bounds of underflows
+    // x = 1 within the set: Clarke's derivative of the kink; x = 2 outside it.
+    auto const kink = found[0].over_box(1, 0);
+    CHECK(kink.lower() <= -std::exp(0.6));
+    CHECK(kink.upper() >= std::exp(0.6));
+}
+
 TEST_CASE("a failure on the way is handed over with what was reached") {
     auto const f = support::flow_of(
         support::model_of({1, 0, 0, 1e6}, [](auto const&, auto const& x, auto const&, auto const&) {

@@ -3,7 +3,7 @@
 #define SIVID_ENCLOSURE_SENSITIVITY_SENSITIVE_FLOW_HPP
 
 #include <sivid/enclosure/series/detail/expansion_tail.hpp>
-#include <sivid/enclosure/series/detail/power_sum.hpp>
+#include <sivid/enclosure/series/detail/variation_step.hpp>
 #include <sivid/enclosure/set/detail/framed_radii.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
@@ -150,8 +150,7 @@ public:
     }
 
 private:
-    /// Makes computed sums of a few dozen non-negative numbers upper bounds.
-    static constexpr double up = 1 + 1e-12;
+    static constexpr double up = enclosure_detail::sum_up;
 
     void around(typename flow_type::set_type const& set) {
         for (std::size_t i = 0; i < set.centre.size(); ++i) {
@@ -161,47 +160,16 @@ private:
 
     /// |V - [1, 0]| on a step of length h, by the series up to order L: n x columns.
     [[nodiscard]] std::optional<std::vector<double>> bound(double h, std::size_t L) const {
+        using namespace enclosure_detail;
         auto const n = flow_->states();
         auto const m = columns();
         double power = h;
         for (std::size_t k = 1; k < L; ++k) power *= h;
-        power *= up;
-        std::vector<double> base(n * m, 0.0), last(n * m, 0.0);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t c = 0; c < m; ++c) {
-                if (!flow_->sensitive(i, c)) continue;
-                double sum = 0;
-                for (std::size_t k = L; k-- > 1;) {
-                    sum = sum * h + series_.variation(i, c, k).norm();
-                }
-                last[i * m + c] = tube_.variation(i, c, L).norm() * power * up;
-                base[i * m + c] = sum * h * up + entry::tiny + last[i * m + c];
-            }
-        }
-        auto const image = [&](std::vector<double> const& w) {
-            auto result = base;
-            for (std::size_t i = 0; i < n; ++i) {
-                for (std::size_t l = 0; l < n; ++l) {
-                    if (last[i * m + l] == 0) continue;
-                    for (std::size_t c = 0; c < m; ++c) {
-                        result[i * m + c] += last[i * m + l] * w[l * m + c];
-                    }
-                }
-            }
-            for (auto& x : result) x *= up;
-            return result;
-        };
-        auto guess = base;
-        // What acts through a chain of states takes a round for each of them to arrive.
-        for (std::size_t round = 0; round < 12 + n; ++round) {
-            guess = image(guess);
-            for (auto& x : guess) x = x * 1.1 + 1e-300;
-            auto const next = image(guess);
-            bool inside = true;
-            for (std::size_t k = 0; k < next.size(); ++k) inside = inside && next[k] < guess[k];
-            if (inside) return guess;
-        }
-        return std::nullopt;
+        std::vector<double> w;
+        bool const found = bound_variations(variation_sizes(*flow_, series_, m, h, L, 1),
+                                            last_variation_sizes(*flow_, tube_, m, power * up, L),
+                                            n, 12 + n, true, w);
+        return found ? std::optional(std::move(w)) : std::nullopt;
     }
 
     /// Carries the derivatives over the step that the flow has just proved.
@@ -243,6 +211,7 @@ private:
 
     /// @param w  what `bound` says of the tube; null where `tail_` has bounded V
     void carry(std::vector<double> const* w, double length, std::size_t L) {
+        using namespace enclosure_detail;
         auto const n = flow_->states();
         auto const m = columns();
         std::vector<entry> map(n * m);
@@ -252,27 +221,16 @@ private:
             double row = 0;
             for (std::size_t c = 0; c < m; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
-                entry last;
-                double more = 0;
-                if (w) { // |J_x| W
-                    for (std::size_t l = 0; l < n; ++l) {
-                        if (!flow_->sensitive(i, l)) continue;
-                        more += tube_.variation(i, l, L).norm() * (*w)[l * m + c];
-                    }
-                    last = widened(without_last_variable(tube_.variation(i, c, L), run_.shape()),
-                                   more * up);
-                    row += last.norm();
-                } else {
-                    row += tail_.variation(i, c);
-                }
                 auto& over_step = map[i * m + c];
-                over_step = at_time(
-                    run_.shape(),
-                    [&](std::size_t k) -> entry const& {
-                        return k < L ? series_.variation(i, c, k) : last;
-                    },
-                    w ? L : L - 1, length);
-                if (!w) over_step = widened(over_step, tail_.variation(i, c));
+                if (w) {
+                    auto const last = last_variation(*flow_, tube_, *w, i, c, L, run_.shape());
+                    row += last.norm();
+                    over_step = variation_at_end(series_, last, i, c, L, run_.shape(), length);
+                } else {
+                    double const rest = tail_.variation(i, c);
+                    row += rest;
+                    over_step = variation_at_end(series_, rest, i, c, L, run_.shape(), length);
+                }
                 spread = std::max(spread, over_step.spread());
                 size = std::max(size, over_step.polynomial_norm());
             }

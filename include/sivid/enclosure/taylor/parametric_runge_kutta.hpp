@@ -62,48 +62,6 @@ double parametric_runge_kutta<Model>::propose(double rest) const {
 }
 
 template <class Model>
-Eigen::MatrixXd parametric_runge_kutta<Model>::sizes(double h, std::size_t from) const {
-    auto const n = flow_->states();
-    Eigen::MatrixXd result =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t c = 0; c < n; ++c) {
-            if (!flow_->sensitive(i, c)) continue;
-            double sum = 0;
-            for (std::size_t k = flow_order_; k-- > from;) {
-                sum = sum * h + derivative_.variation(i, c, k).norm();
-            }
-            for (std::size_t k = 0; k < from; ++k) sum *= h;
-            result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) =
-                sum * up + polynomial::tiny;
-        }
-    }
-    return result;
-}
-
-template <class Model>
-bool parametric_runge_kutta<Model>::bound_flow(double h, Eigen::MatrixXd const& last,
-                                               Eigen::MatrixXd& w) const {
-    auto const base = sizes(h, 1);
-    auto const one = Eigen::MatrixXd::Identity(base.rows(), base.cols());
-    auto const image = [&](Eigen::MatrixXd const& x) -> Eigen::MatrixXd {
-        return (base + last * (one + x)) * up;
-    };
-    Eigen::MatrixXd guess = base + last;
-    // What acts through a chain of states takes a round for each of them to arrive.
-    for (Eigen::Index round = 0; round < 8 + base.rows(); ++round) {
-        guess = 1.1 * image(guess);
-        guess.array() += 1e-300;
-        if (!guess.allFinite()) return false;
-        if ((image(guess).array() < guess.array()).all()) {
-            w = guess;
-            return true;
-        }
-    }
-    return false;
-}
-
-template <class Model>
 bool parametric_runge_kutta<Model>::useful(enclosure_failure& why) const {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         double const limit = flow_->model().about.states[i].limit;
@@ -210,9 +168,9 @@ bool parametric_runge_kutta<Model>::apply_method(interval const& h) {
 
 template <class Model>
 bool parametric_runge_kutta<Model>::try_step(double to, double& shorten, enclosure_failure& why) {
+    using namespace enclosure_detail;
     using traits = interval_traits<interval>;
     auto const n = flow_->states();
-    auto const states = static_cast<Eigen::Index>(n);
     double const from = set_.time;
     auto const length = traits::sub(traits::point(to), traits::point(from));
     double const h = length.upper();
@@ -222,9 +180,12 @@ bool parametric_runge_kutta<Model>::try_step(double to, double& shorten, enclosu
     if (centre_.kinked() || derivative_.kinked()) return false;
     auto const s = within_step(0.5 * h);
     auto const times = polynomial::constant(from) + s;
-    Eigen::VectorXd reach(states);
-    for (std::size_t i = 0; i < n; ++i) reach[static_cast<Eigen::Index>(i)] = set_.reach[i];
-    Eigen::VectorXd const carried = sizes(h, 0) * reach;
+    auto const base = variation_sizes(*flow_, derivative_, n, h, L, 1);
+    auto const all = variation_sizes(*flow_, derivative_, n, h, L, 0);
+    std::vector<double> carried(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t c = 0; c < n; ++c) carried[i] += all[i * n + c] * set_.reach[c];
+    }
     bool never = false;
     double const power = traits::pown(length, static_cast<int>(K + 1), never).upper();
     double const flow_power = traits::pown(length, static_cast<int>(L), never).upper();
@@ -236,8 +197,8 @@ bool parametric_runge_kutta<Model>::try_step(double to, double& shorten, enclosu
             b = b * s + converted(centre_.state(i, k), *tube_shape_);
         }
         path.push_back(b);
-        room.push_back(1.2 * carried[static_cast<Eigen::Index>(i)] +
-                       centre_.state(i, K).norm() * power / h + 0.1 * allowed(i));
+        room.push_back(1.2 * carried[i] + centre_.state(i, K).norm() * power / h +
+                       0.1 * allowed(i));
     }
     for (int round = 0; round < 3; ++round) {
         tube_box_.clear();
@@ -269,25 +230,27 @@ bool parametric_runge_kutta<Model>::try_step(double to, double& shorten, enclosu
         tube_.expand_with_variations(from, times, tube_box_, L);
         if (tube_.undefined()) why.reason = failure_reason::undefined;
         if (tube_.undefined() || tube_.kinked()) return false;
-        Eigen::MatrixXd last = Eigen::MatrixXd::Zero(states, states);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t c = 0; c < n; ++c) {
-                if (!flow_->sensitive(i, c)) continue;
-                last(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) =
-                    tube_.variation(i, c, L).norm() * flow_power * up;
-            }
-        }
-        Eigen::MatrixXd w;
-        if (!bound_flow(h, last, w)) {
-            why.component = steepest(h, last);
+        auto const last = last_variation_sizes(*flow_, tube_, n, flow_power, L);
+        std::vector<double> w;
+        // What acts through a chain of states takes a round for each of them to arrive.
+        if (!bound_variations(base, last, n, 8 + n, true, w)) {
+            why.component = steepest(base, last);
             return false;
         }
-        auto const one = Eigen::MatrixXd::Identity(states, states);
-        Eigen::VectorXd const spread = (carried + last * ((one + w) * reach)) * up;
+        std::vector<double> spread(n); // carried + last (1 + w) reach
+        for (std::size_t i = 0; i < n; ++i) {
+            double sum = carried[i];
+            for (std::size_t l = 0; l < n; ++l) {
+                double inner = set_.reach[l];
+                for (std::size_t c = 0; c < n; ++c) inner += w[l * n + c] * set_.reach[c];
+                sum += last[i * n + l] * inner;
+            }
+            spread[i] = sum * up;
+        }
         bool proved = true;
         double worst = 0;
         for (std::size_t i = 0; i < n; ++i) {
-            double const image = (truncation[i] + spread[static_cast<Eigen::Index>(i)]) * up;
+            double const image = (truncation[i] + spread[i]) * up;
             if (image < room[i]) continue;
             proved = false;
             if (!(image / room[i] <= worst)) {
@@ -303,7 +266,7 @@ bool parametric_runge_kutta<Model>::try_step(double to, double& shorten, enclosu
         if (!apply_method(length)) {
             if (implicit_value_) {
                 why.reason = failure_reason::unsolved_stages;
-                why.component = steepest(h, last);
+                why.component = steepest(base, last);
             }
             return false;
         }
@@ -326,13 +289,14 @@ bool parametric_runge_kutta<Model>::try_step(double to, double& shorten, enclosu
 }
 
 template <class Model>
-void parametric_runge_kutta<Model>::accept(double to, interval const& h, Eigen::MatrixXd const& w) {
+void parametric_runge_kutta<Model>::accept(double to, interval const& h,
+                                           std::vector<double> const& w) {
+    using namespace enclosure_detail;
     using traits = interval_traits<interval>;
     auto const n = flow_->states();
     std::size_t const L = flow_order_;
     bool never = false;
     auto const power = traits::pown(h, static_cast<int>(order_ + 1), never);
-    auto const flow_power = traits::pown(h, static_cast<int>(L), never);
     std::vector<double> lost(n);
     std::vector<polynomial> next(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -345,19 +309,9 @@ void parametric_runge_kutta<Model>::accept(double to, interval const& h, Eigen::
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t c = 0; c < n; ++c) {
             if (!flow_->sensitive(i, c)) continue;
-            auto last = without_last_variable(tube_.variation(i, c, L), *column_shape_);
-            double spread = 0; // |J_L(b)| W
-            for (std::size_t l = 0; l < n; ++l) {
-                if (!flow_->sensitive(i, l)) continue;
-                spread += tube_.variation(i, l, L).norm() *
-                          w(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(c));
-            }
-            last = scaled(widened(last, spread * up), flow_power);
-            auto sum = derivative_.variation(i, c, L - 1);
-            for (std::size_t k = L - 1; k-- > 0;) {
-                sum = scaled(sum, h) + derivative_.variation(i, c, k);
-            }
-            j[i * n + c] = last + sum;
+            auto const last = last_variation(*flow_, tube_, w, i, c, L, *column_shape_);
+            j[i * n + c] =
+                variation_at_end(derivative_, last, i, c, L, *column_shape_, to - set_.time);
         }
     }
     for (auto& g : set_.columns) {
@@ -374,16 +328,14 @@ void parametric_runge_kutta<Model>::accept(double to, interval const& h, Eigen::
         g = std::move(image);
     }
     if (perturbed_) {
-        auto const all = sizes(h.upper(), 0);
-        auto const before = Eigen::Map<Eigen::VectorXd const>(disturbed_.data(), all.rows());
-        Eigen::VectorXd const carried = all * before;
+        auto const all = variation_sizes(*flow_, derivative_, n, h.upper(), L, 0);
+        std::vector<double> disturbed(perturbed_->at_end());
         for (std::size_t i = 0; i < n; ++i) {
             lost[i] += perturbed_->at_end()[i];
             tube_box_[i] = widened(tube_box_[i], perturbed_->largest()[i]);
+            for (std::size_t c = 0; c < n; ++c) disturbed[i] += all[i * n + c] * disturbed_[c];
         }
-        for (std::size_t i = 0; i < n; ++i) {
-            disturbed_[i] = carried[static_cast<Eigen::Index>(i)] + perturbed_->at_end()[i];
-        }
+        disturbed_ = std::move(disturbed);
     }
     for (auto& x : lost) x *= up;
     set_.time = to;

@@ -15,9 +15,10 @@
 
 namespace sivid {
 
-/// What is not known of the columns of a matrix that linear maps carry along, as `framed_columns`,
-/// where all of it is symmetric about 0: column c lies within \f$ B [-\rho_c, \rho_c] \f$. Radii
-/// need no intervals: products of absolute values and bounds of roundings do, in any rounding mode.
+/// What is not known of the columns of a matrix that linear maps carry along: column c lies within
+/// \f$ B [-\rho_c, \rho_c] \f$, with one nearly orthogonal frame B for all columns, so that radii
+/// do not wrap from step to step. Radii need no intervals: products of absolute values and bounds
+/// of roundings do, in any rounding mode.
 /// @ref  Lohner 1987; Zgliczynski 2002 (C1-Lohner); Rump 1999 (midpoint-radius products)
 class framed_radii {
     using matrix = Eigen::MatrixXd;

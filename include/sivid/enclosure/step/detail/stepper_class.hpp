@@ -90,20 +90,6 @@ public:
     /// The set at the end of the step that was proved last.
     [[nodiscard]] doubleton<I> finish(tube_step<I> const& step) { return map(step, step.to); }
 
-    /// Encloses \f$ \partial x(to) / \partial (x(from), p) \f$ for every member of the step's set,
-    /// n x (n + parameters); across kinks Clarke's generalised derivative.
-    /// @param to  in (from, to] of a proved step
-    /// @returns nothing where the right-hand side may jump, or nothing could be proved
-    [[nodiscard]] std::optional<interval_matrix<I>> derivative(tube_step<I> const& step,
-                                                               double to) {
-        load(step);
-        return known_derivative(step, to);
-    }
-    /// The same at the end of the step that was proved last.
-    [[nodiscard]] std::optional<interval_matrix<I>> last_derivative(tube_step<I> const& step) {
-        return known_derivative(step, step.to);
-    }
-
 private:
     static constexpr double reject_factor = 0.5;
 
@@ -165,8 +151,6 @@ private:
     [[nodiscard]] doubleton<I> map(tube_step<I> const& step, double to);
     /// Of a smooth or kinked step whose series are loaded.
     [[nodiscard]] interval_matrix<I> flow_derivative(tube_step<I> const& step, I const& s);
-    [[nodiscard]] std::optional<interval_matrix<I>> known_derivative(tube_step<I> const& step,
-                                                                     double to);
     /// Uncertain inputs: bounds their share of a step that is proved without it.
     [[nodiscard]] bool perturb(tube_step<I>& step);
     /// A box at a time of a proved step, widened by that share.

@@ -8,7 +8,6 @@
 #include <sivid/enclosure/step/detail/stepper_class.hpp>
 
 #include <cstddef>
-#include <optional>
 
 namespace sivid {
 
@@ -108,18 +107,6 @@ interval_matrix<I> stepper<I>::flow_derivative(tube_step<I> const& step, I const
         }
     }
     return j;
-}
-
-template <class I>
-std::optional<interval_matrix<I>> stepper<I>::known_derivative(tube_step<I> const& step,
-                                                               double to) {
-    if (step.jumps) return std::nullopt;
-    if (!step.dissipative) return flow_derivative(step, span(step.from, to));
-    auto const map = long_map_ && to == step.to
-                         ? long_map_
-                         : long_->map(step.from, to, step.start.centre, step.tube);
-    if (!map) return std::nullopt;
-    return map->derivative;
 }
 
 template <class I>

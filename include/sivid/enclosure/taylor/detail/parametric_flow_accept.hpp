@@ -6,6 +6,7 @@
 /// The sets after a proved step.
 
 #include <sivid/enclosure/series/detail/power_sum.hpp>
+#include <sivid/enclosure/series/detail/variation_step.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_class.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_sharp.hpp>
 
@@ -19,6 +20,7 @@ namespace sivid {
 template <class Model>
 void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
                                     std::size_t flow_order, square const& w, mask jumps) {
+    using namespace enclosure_detail;
     auto const n = flow_->states();
     C const length = to - set_.time; // off by less than a unit
     std::vector<C> lost(n);
@@ -67,23 +69,12 @@ void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t c = 0; c < n; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
-                column_entry last;
-                if (!tails_) {
-                    last = without_last_variable(tube_.variation(i, c, flow_order), *column_shape_);
-                    C spread{}; // |J_L(b)| W
-                    for (std::size_t l = 0; l < n; ++l) {
-                        if (!flow_->sensitive(i, l)) continue;
-                        spread += tube_.variation(i, l, flow_order).norm() * w[l * n + c];
-                    }
-                    last = widened(last, spread * up);
-                }
-                auto sum = at_time(
-                    *column_shape_,
-                    [&](std::size_t k) -> column_entry const& {
-                        return k < flow_order ? derivative_.variation(i, c, k) : last;
-                    },
-                    tails_ ? flow_order - 1 : flow_order, length);
-                if (tails_) sum = widened(sum, derivative_tail_.variation(i, c));
+                auto sum = tails_ ? variation_at_end(derivative_, derivative_tail_.variation(i, c),
+                                                     i, c, flow_order, *column_shape_, length)
+                                  : variation_at_end(derivative_,
+                                                     last_variation(*flow_, tube_, w, i, c,
+                                                                    flow_order, *column_shape_),
+                                                     i, c, flow_order, *column_shape_, length);
                 // Lanes that stay, or jump, keep their generators.
                 j[i * n + c] = select(moved & !jumps, std::move(sum),
                                       column_entry::constant(C(i == c ? 1.0 : 0.0)));
@@ -112,8 +103,7 @@ void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
     }
     release_states(moved, next, lost);
     if (perturbed_) {
-        square all;
-        sizes(length, flow_order, 0, all);
+        auto const all = variation_sizes(*flow_, derivative_, n, length, flow_order, 0);
         std::vector<C> carried(n);
         for (std::size_t i = 0; i < n; ++i) {
             C const own = side_by_side::select(moved, perturbed_->at_end()[i], C(0.0));

@@ -5,7 +5,7 @@
 /// @file
 /// The proof of one step: a tube, what is lost on it, and the lanes where the tube holds.
 
-#include <sivid/enclosure/series/detail/power_sum.hpp>
+#include <sivid/enclosure/series/detail/variation_step.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_class.hpp>
 
 #include <algorithm>
@@ -15,59 +15,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// \f$ \sum_{from \le k < order} h^k \|V_k\| \f$, componentwise, rounded up.
-template <class Model>
-void parametric_flow<Model>::sizes(C const& h, std::size_t order, std::size_t from,
-                                   square& result) const {
-    auto const n = flow_->states();
-    result.assign(n * n, C(0.0));
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t c = 0; c < n; ++c) {
-            if (!flow_->sensitive(i, c)) continue;
-            C sum{};
-            for (std::size_t k = order; k-- > from;) {
-                sum = sum * h + derivative_.variation(i, c, k).norm();
-            }
-            for (std::size_t k = 0; k < from; ++k) sum *= h;
-            result[i * n + c] = sum * up + polynomial::tiny;
-        }
-    }
-}
-
-template <class Model>
-typename parametric_flow<Model>::mask
-parametric_flow<Model>::bound_flow(square const& base, square const& last, mask pending,
-                                   square& w) const {
-    auto const n = flow_->states();
-    auto const image = [&](square const& x, square& y) { // (base + last (1 + x)) rounded up
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t c = 0; c < n; ++c) {
-                C sum = base[i * n + c] + last[i * n + c];
-                for (std::size_t l = 0; l < n; ++l) sum += last[i * n + l] * x[l * n + c];
-                y[i * n + c] = sum * up;
-            }
-        }
-    };
-    square guess(n * n), inside(n * n);
-    for (std::size_t k = 0; k < n * n; ++k) guess[k] = base[k] + last[k];
-    mask found{};
-    w.assign(n * n, C(0.0));
-    for (int round = 0; round < 8; ++round) {
-        image(guess, inside);
-        for (std::size_t k = 0; k < n * n; ++k) guess[k] = inside[k] * 1.1 + 1e-300;
-        image(guess, inside);
-        mask good = pending & !found;
-        for (std::size_t k = 0; k < n * n; ++k) good = good & (inside[k] < guess[k]);
-        if (side_by_side::any(good)) {
-            for (std::size_t k = 0; k < n * n; ++k)
-                w[k] = side_by_side::select(good, guess[k], w[k]);
-            found = found | good;
-        }
-        if (!side_by_side::any(pending & !found)) break;
-    }
-    return found;
-}
 
 /// The lanes whose truncation is allowed; the others try again with a shorter step.
 template <class Model>
@@ -136,6 +83,7 @@ template <class Model>
 typename parametric_flow<Model>::mask
 parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
                                 square& w, mask& jumps) {
+    using namespace enclosure_detail;
     auto const n = flow_->states();
     std::size_t const K = order;
     std::size_t const L = flow_order;
@@ -160,8 +108,7 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
             trying = carries_well(short_enough(trying, h, K, truncation_, {}), h, L);
             if (!side_by_side::any(trying)) return mask{};
             guess_tube(h, K);
-            square all;
-            sizes(h, L, 0, all);
+            auto const all = variation_sizes(*flow_, derivative_, n, h, L, 0);
             for (std::size_t i = 0; i < n; ++i) {
                 C sum = truncation_[i];
                 for (std::size_t c = 0; c < n; ++c) {
@@ -181,9 +128,9 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
     auto const s = within_step(h);
     auto const times = tube_entry::constant(set_.time) + s;
     // What the reach becomes during the step, as far as the series knows.
-    square all, base, last;
-    sizes(h, L, 0, all);
-    sizes(h, L, 1, base);
+    auto const all = variation_sizes(*flow_, derivative_, n, h, L, 0);
+    auto const base = variation_sizes(*flow_, derivative_, n, h, L, 1);
+    square last;
     std::vector<C> carried(n), spread(n);
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t c = 0; c < n; ++c) carried[i] += all[i * n + c] * set_.reach[c];
@@ -250,15 +197,10 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
                 reject(undefined, failure_reason::undefined, half);
                 trying = trying & !undefined;
             }
-            for (std::size_t i = 0; i < n; ++i) {
-                for (std::size_t c = 0; c < n; ++c) {
-                    if (!flow_->sensitive(i, c)) continue;
-                    last[i * n + c] = tube_.variation(i, c, L).norm() * flow_power * up;
-                }
-            }
+            last = last_variation_sizes(*flow_, tube_, n, flow_power, L);
             if (K == 0)
                 trying = short_enough(trying & !jumps, h, K, share, last) | (trying & jumps);
-            mask const bounded = bound_flow(base, last, trying & !jumps, w);
+            mask const bounded = bound_variations(base, last, n, 8, trying & !jumps, w);
             mask const unbounded = trying & !jumps & !bounded;
             if (side_by_side::any(unbounded)) {
                 square growth = base;

@@ -7,6 +7,7 @@
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/series/detail/expansion_tail.hpp>
 #include <sivid/enclosure/series/detail/power_sum.hpp>
+#include <sivid/enclosure/series/detail/variation_step.hpp>
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
@@ -173,8 +174,7 @@ public:
     [[nodiscard]] std::vector<tube_entry> const& swept_models() const { return swept_; }
 
 private:
-    /// Makes computed sums of a few dozen non-negative numbers upper bounds.
-    static constexpr double up = 1 + 1e-12;
+    static constexpr double up = enclosure_detail::sum_up;
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     /// n x n entries, one for each pair of states.
@@ -228,9 +228,6 @@ private:
     [[nodiscard]] double propose(std::size_t lane, double rest) const;
     [[nodiscard]] double gentle(std::size_t lane, double h) const;
     void adapt_order(mask moved, C const& h, bool clamped);
-    /// Bounds |V - 1| on the step; returns the lanes where it is short enough for that.
-    [[nodiscard]] mask bound_flow(square const& base, square const& last, mask pending,
-                                  square& w) const;
     [[nodiscard]] mask useful(mask lanes);
     void guess_tube(C const& h, std::size_t order);
     /// Bounds what the series of a step over h leave out from the sizes of their coefficients:
@@ -251,7 +248,6 @@ private:
     void release_states(mask moved, std::vector<polynomial>& next, std::vector<C>& lost);
     void accept(mask moved, C const& to, std::size_t order, std::size_t flow_order, square const& w,
                 mask jumps);
-    void sizes(C const& h, std::size_t order, std::size_t from, square& result) const;
     /// How many of the centre's lowest orders are worth twice the digits; a preference.
     [[nodiscard]] std::size_t sharp_orders(C const& length, std::size_t order) const;
     /// Expands the centre of a point in twice the digits, up to `orders` - 1.

@@ -7,14 +7,13 @@
 #include <sivid/enclosure/options.hpp>
 #include <sivid/enclosure/runge_kutta/implicit_runge_kutta.hpp>
 #include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
+#include <sivid/enclosure/series/detail/variation_step.hpp>
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
-
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -95,8 +94,7 @@ public:
     }
 
 private:
-    /// Upper bounds of sums of a few dozen non-negative doubles.
-    static constexpr double up = 1 + 1e-12;
+    static constexpr double up = enclosure_detail::sum_up;
 
     [[nodiscard]] static std::size_t order_of(enclosure_options const& options) {
         if (!options.method) {
@@ -135,20 +133,19 @@ private:
     }
     [[nodiscard]] double propose(double rest) const;
     /// The state whose row of the derivative of the step grows most.
-    [[nodiscard]] std::size_t steepest(double h, Eigen::MatrixXd const& last) const {
-        Eigen::Index row = 0;
-        (sizes(h, 1) + last).rowwise().sum().template maxCoeff<Eigen::PropagateNaN>(&row);
-        return static_cast<std::size_t>(row);
+    [[nodiscard]] std::size_t steepest(std::vector<double> const& base,
+                                       std::vector<double> const& last) const {
+        std::size_t const n = flow_->states();
+        std::vector<double> rows(n, 0.0);
+        for (std::size_t k = 0; k < base.size(); ++k) rows[k / n] += base[k] + last[k];
+        for (auto& x : rows) x = std::isnan(x) ? HUGE_VAL : x;
+        return static_cast<std::size_t>(std::max_element(rows.begin(), rows.end()) - rows.begin());
     }
-    /// \f$ \sum_{from \le k < L} h^k \|V_k\| \f$, componentwise, rounded up.
-    [[nodiscard]] Eigen::MatrixXd sizes(double h, std::size_t from) const;
-    /// Bounds |V - 1| on the step; false when h is too long for that.
-    [[nodiscard]] bool bound_flow(double h, Eigen::MatrixXd const& last, Eigen::MatrixXd& w) const;
     /// Proves the tube and what the method needs on it; `shorten` is for the next attempt.
     [[nodiscard]] bool try_step(double to, double& shorten, enclosure_failure& why);
     /// The method's value at h and its coefficient p + 1 at all times of the step.
     [[nodiscard]] bool apply_method(interval const& h);
-    void accept(double to, interval const& h, Eigen::MatrixXd const& w);
+    void accept(double to, interval const& h, std::vector<double> const& w);
     [[nodiscard]] bool useful(enclosure_failure& why) const;
     [[nodiscard]] bool fail(enclosure_failure why) {
         complete(why, set_, 0, *unknowns_);

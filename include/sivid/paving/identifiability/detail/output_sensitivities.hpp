@@ -64,7 +64,7 @@ public:
     /// without a bound have no row.
     /// @param starts  one box per experiment
     /// @guarantee  holds for the recorded inputs
-    /// @cost  one integration per experiment, and a step's derivative per time of measurement
+    /// @cost  one integration with derivatives per experiment; its steps end at measurements
     [[nodiscard]] output_sensitivities operator()(box const& parameters,
                                                   std::vector<box> const& starts) const;
 
@@ -75,17 +75,6 @@ private:
             if (std::isfinite(mag(m.bound))) kept.push_back(m);
         }
         return kept;
-    }
-    [[nodiscard]] std::vector<interval> row_of(interval_matrix<interval> const& derivatives,
-                                               std::size_t channel, std::size_t e) const {
-        auto const n = problem_->model.about.states.size();
-        std::vector<interval> row(unknowns_.size(), interval(0.0));
-        for (std::size_t c = 0; c < row.size(); ++c) {
-            auto const& q = unknowns_[c];
-            if (!q.experiment) row[c] = derivatives(channel, n + q.index);
-            if (q.experiment == e) row[c] = derivatives(channel, q.index);
-        }
-        return row;
     }
 
     identification_problem const* problem_;

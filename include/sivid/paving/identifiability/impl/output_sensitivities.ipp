@@ -4,12 +4,12 @@
 
 #include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
 
-#include <sivid/enclosure/sensitivity/sensitivity_tube.hpp>
+#include <sivid/enclosure/sensitivity/sensitive_flow.hpp>
 
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <utility>
+#include <vector>
 
 namespace sivid {
 
@@ -55,18 +55,27 @@ SIVID_DECL output_sensitivities sensitivity_runs::operator()(box const& paramete
         auto const& samples = samples_[e];
         if (samples.empty()) continue;
         auto const& from = problem_->experiments[e];
-        auto const tube = integrate_with_sensitivities<interval>(
-            flows_[e], starts[e], parameters, from.begin, samples.back().time, options_);
+        std::vector<double> times;
+        for (auto const& m : samples) {
+            if (times.empty() || m.time != times.back()) times.push_back(m.time);
+        }
+        auto const found =
+            sensitivities_at(*flows_[e], options_, starts[e], parameters, from.begin, times);
         auto const weights = paving_detail::weights_of(samples);
-        std::optional<interval_matrix<interval>> derivatives;
+        std::size_t at = 0;
         for (std::size_t k = 0; k < samples.size(); ++k) {
-            double const t = samples[k].time;
-            if (t > tube.states().end_time()) {
+            while (at < found.size() && found[at].time < samples[k].time) ++at;
+            if (at == found.size()) {
                 result.missing += samples.size() - k;
                 break;
             }
-            if (k == 0 || t != samples[k - 1].time) derivatives = tube.observe_at(t);
-            rows.push_back(row_of(*derivatives, samples[k].channel, e));
+            auto& row = rows.emplace_back();
+            for (auto const& q : unknowns_) {
+                auto const c = q.experiment ? q.index : flows_[e]->states() + q.index;
+                row.push_back(q.experiment.value_or(e) == e
+                                  ? found[at].over_box(samples[k].channel, c)
+                                  : interval(0.0));
+            }
             result.weights.push_back(weights[k]);
         }
     }
