@@ -85,6 +85,7 @@ TEST_CASE("sums and products are exact") {
     CHECK(dec("1e-9").times(5).floor() == 0);
     CHECK(dec("12e2").times(3).floor() == 3600);
     CHECK(dec("0.5").times(0).floor() == 0);
+    CHECK(dec("-0.25").times(18446744073709551615u) == dec("-4611686018427387903.75"));
 }
 
 TEST_CASE("exact_decimal agrees with integers in a random sample") {

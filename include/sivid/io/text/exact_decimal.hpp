@@ -63,7 +63,7 @@ public:
         return a + (-b);
     }
 
-    /// x n, for n below 1e18. Named, because Boost's interval converts from everything and would
+    /// x n. Named, because Boost's interval converts from everything and would
     /// make `*` ambiguous.
     [[nodiscard]] exact_decimal times(std::size_t n) const;
 

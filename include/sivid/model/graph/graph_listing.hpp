@@ -9,6 +9,7 @@
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -36,19 +37,9 @@ enum class graph_part {
 }
 
 [[nodiscard]] constexpr std::string_view to_string(graph_part p) {
-    switch (p) {
-    case graph_part::fixed:
-        return "fixed";
-    case graph_part::parameters:
-        return "parameters only";
-    case graph_part::inputs:
-        return "inputs only";
-    case graph_part::both:
-        return "inputs and parameters";
-    case graph_part::states:
-        return "states";
-    }
-    return "";
+    constexpr std::array<std::string_view, 5> names{"fixed", "parameters only", "inputs only",
+                                                    "inputs and parameters", "states"};
+    return names[static_cast<std::size_t>(p)];
 }
 
 /// The operations that some outputs of a graph need, in the order of evaluation, with the names of

@@ -4,6 +4,8 @@
 
 #include <sivid/model/to_dot.hpp>
 
+#include <array>
+
 namespace sivid {
 
 namespace model_detail {
@@ -19,19 +21,9 @@ namespace model_detail {
 }
 
 [[nodiscard]] constexpr std::string_view dot_colour(graph_part part) {
-    switch (part) {
-    case graph_part::fixed:
-        return "#eeeeee";
-    case graph_part::parameters:
-        return "#cfe8cf";
-    case graph_part::inputs:
-        return "#cfe0f5";
-    case graph_part::both:
-        return "#c9e6e6";
-    case graph_part::states:
-        return "#ffffff";
-    }
-    return "";
+    constexpr std::array<std::string_view, 5> colours{"#eeeeee", "#cfe8cf", "#cfe0f5", "#c9e6e6",
+                                                      "#ffffff"};
+    return colours[static_cast<std::size_t>(part)];
 }
 
 } // namespace model_detail

@@ -6,6 +6,7 @@
 #include <sivid/decision/requirement.hpp>
 #include <sivid/model/graph/arithmetic.hpp>
 #include <sivid/model/graph/graph.hpp>
+#include <sivid/model/graph/program.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/parameter_choice.hpp>
 
@@ -43,10 +44,10 @@ struct without_idle_parts {
         } catch (std::domain_error const&) {
             return; // a derived constant may be undefined somewhere: all stays as it is
         }
-        defined_ = defined_everywhere(from.g, ranges);
+        auto const values = values_of(from.g, ranges);
         for (auto const& u : original.inputs) held_.push_back(constant_value(u));
         still_.assign(from.rate.size(), false);
-        if (lipschitz(from, ranges)) find_still(original);
+        if (lipschitz(from, values)) find_still(original);
         rewrite(from);
         fix_idle(around);
     }
@@ -61,48 +62,29 @@ private:
         bool const same = std::all_of(v.begin(), v.end(), [&](double x) { return x == v.front(); });
         return same ? std::optional(v.front()) : std::nullopt;
     }
-    /// Values of all nodes, whatever the states, the inputs and the time.
-    static std::vector<interval> values(graph const& g, std::vector<interval> const& constants,
-                                        std::vector<bool>& defined) {
-        std::vector<interval> x(g.size());
-        defined.assign(g.size(), true);
-        for (std::size_t k = 0; k < g.size(); ++k) {
-            auto const& n = g.nodes()[k];
-            if (n.op == operation::literal) {
-                x[k] = g.value(n).enclosure;
-            } else if (n.op == operation::constant) {
-                x[k] = constants[static_cast<std::size_t>(n.index)];
-            } else if (is_leaf(n.op)) {
-                x[k] = traits::entire();
-            } else {
-                auto const b = is_binary(n.op) ? n.b : n.a;
-                defined[k] = defined[n.a] && defined[b];
-                bool undefined = !defined[k];
-                x[k] = undefined ? traits::entire()
-                                 : apply<proven_arithmetic<interval>>(n.op, x[n.a], x[b], n.index,
-                                                                      undefined);
-                if (undefined) x[k] = traits::entire();
-                defined[k] = !undefined;
-            }
-        }
+    /// Values of all nodes, whatever the states, the inputs and the time; which are defined.
+    std::vector<interval> values_of(graph const& g, std::vector<interval> const& constants) {
+        using arithmetic = proven_arithmetic<interval>;
+        auto const all = program::marked(g, std::vector<bool>(g.size(), true));
+        auto x = all.memory<arithmetic>();
+        all.read(x, [&](operation op, std::size_t k) {
+            return op == operation::constant ? constants[k] : traits::entire();
+        });
+        defined_.assign(g.size(), true);
+        all.run<arithmetic>(x, [&](program::step const& s, bool undefined) {
+            defined_[s.target] = !undefined && defined_[s.a] && defined_[s.b];
+            if (!defined_[s.target]) x[s.target] = traits::entire();
+        });
         return x;
     }
-    static std::vector<bool> defined_everywhere(graph const& g,
-                                                std::vector<interval> const& constants) {
-        std::vector<bool> defined;
-        static_cast<void>(values(g, constants, defined));
-        return defined;
-    }
     /// Whether motions are unique: no jumps, no roots of what may be 0.
-    static bool lipschitz(recorded_model const& m, std::vector<interval> const& constants) {
-        std::vector<bool> defined;
-        auto const x = values(m.g, constants, defined);
+    static bool lipschitz(recorded_model const& m, std::vector<interval> const& values) {
         auto const needed = operands_of(m.g, m.rate);
         for (std::size_t k = 0; k < m.g.size(); ++k) {
             auto const& n = m.g.nodes()[k];
             if (!needed[k]) continue;
             if (n.op == operation::sign) return false;
-            if (n.op == operation::sqrt && !(x[n.a].lower() > 0)) return false;
+            if (n.op == operation::sqrt && !(values[n.a].lower() > 0)) return false;
         }
         return true;
     }

@@ -105,22 +105,10 @@ SIVID_DECL exact_decimal exact_decimal::sum(exact_decimal const& a, exact_decima
 }
 
 SIVID_DECL exact_decimal exact_decimal::times(std::size_t n) const {
-    exact_decimal result;
-    if (is_zero() || n == 0) return result;
-    std::string reversed;
-    // carry < n + 1, so 9 n + carry must fit: n below 1e18
-    std::size_t carry = 0;
-    for (auto d = digits_.rbegin(); d != digits_.rend(); ++d) {
-        carry += static_cast<std::size_t>(*d - '0') * n;
-        reversed += static_cast<char>('0' + carry % 10);
-        carry /= 10;
-    }
-    for (; carry > 0; carry /= 10) reversed += static_cast<char>('0' + carry % 10);
-    result.negative_ = negative_;
-    result.exponent_ = exponent_;
-    result.digits_.assign(reversed.rbegin(), reversed.rend());
-    result.normalise();
-    return result;
+    exact_decimal y;
+    y.digits_ = std::to_string(n);
+    y.normalise();
+    return times(y);
 }
 
 SIVID_DECL exact_decimal exact_decimal::times(exact_decimal const& y) const {
