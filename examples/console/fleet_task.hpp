@@ -153,8 +153,8 @@ public:
         if (code >= 1000) return "ended by signal " + std::to_string(code - 1000);
         if (stopped) return "stopped early";
         sivid::json_writer json;
-        json.begin_object().key("format").string(format).key("of").string(key());
-        json.key("code").integer(code).key("seconds").nearest(took).end_object();
+        json.begin_object().members("format", format, "of", key(), "code", code, "seconds", took);
+        json.end_object();
         sivid::write_atomically(note_file(), json.text());
         return "ended with " + std::to_string(code) + " after " + text_of("%.3g s", took);
     }
