@@ -41,7 +41,8 @@ inline constexpr std::string_view value_note =
     "explains the data; not narrowed: it is the prior itself.";
 
 /// A value with its mark.
-[[nodiscard]] SIVID_DECL std::string value_text(estimate_view const& e);
+/// @param verified  as for `estimate_words`
+[[nodiscard]] SIVID_DECL std::string value_text(named_estimate const& e, bool verified);
 
 /// Every constant of the model of the answer, its own and those of the effects.
 [[nodiscard]] SIVID_DECL table constants_table(diagnosis_view const& v);

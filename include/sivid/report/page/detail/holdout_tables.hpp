@@ -13,7 +13,7 @@
 namespace sivid::report {
 
 /// How well the hold-out data are met, before and after.
-[[nodiscard]] SIVID_DECL table holdout_table(holdout_view const& h, range const& shrink);
+[[nodiscard]] SIVID_DECL table holdout_table(diagnosis_view const& v, holdout_figures const& h);
 
 /// Candidates side by side on the hold-out data; only when there are several.
 [[nodiscard]] SIVID_DECL table holdout_candidates_table(diagnosis_view const& v,

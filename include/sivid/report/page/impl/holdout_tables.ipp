@@ -5,7 +5,9 @@
 #include <sivid/report/page/detail/holdout_tables.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace sivid::report {
 
@@ -17,9 +19,12 @@ inline std::string counted_share(double share) {
     return rounded_text(above, rounding::down, {.significant = 3, .shift = 2}) + "\xC2\xA0%";
 }
 
+/// A tube without width was not computed.
+inline bool has_tube(holdout_figures const& h) { return h.width_before > 0 || h.width_after > 0; }
+
 } // namespace detail
 
-SIVID_DECL table holdout_table(holdout_view const& h, range const& shrink) {
+SIVID_DECL table holdout_table(diagnosis_view const& v, holdout_figures const& h) {
     table t{.columns = {{"measure", column_kind::symbol},
                         {"model as it is", column_kind::number},
                         {"with the effect", column_kind::number},
@@ -37,19 +42,33 @@ SIVID_DECL table holdout_table(holdout_view const& h, range const& shrink) {
         t.rows.push_back({"the same, for every parameter that fits", inflation(h.over_fits_before),
                           inflation(h.over_fits_after), proved});
     }
-    if (says_shrink(shrink)) t.rows.push_back({"gap removed", "", shrink_text(shrink), proved});
+    if (says_shrink(v.shrink_holdout))
+        t.rows.push_back({"gap removed", "", shrink_text(v.shrink_holdout), proved});
     auto const add = [&](std::string const& name, double before, double after, auto const& text) {
         auto const number = [&](double x) { return std::isfinite(x) ? text(x) : std::string{"?"}; };
         if (std::isfinite(before) || std::isfinite(after))
             t.rows.push_back({name, number(before), number(after), estimate});
     };
     auto const upward = [](double x) { return rounded_text(x, rounding::up); };
-    for (holdout_view::channel const& c : h.channels) {
-        add("RMSE of " + c.name, c.rmse_before, c.rmse_after,
-            [&](double x) { return rounded_text(x, rounding::nearest) + unit_suffix(c.unit); });
+    auto const unit_of = [&](std::string const& name) {
+        for (compared_scenario const& s : v.plots.scenarios)
+            for (comparison_series const& c : s.channels)
+                if (c.name == name) return c.unit;
+        return std::string{};
+    };
+    auto const at = [](std::vector<double> const& all, std::size_t i) {
+        return i < all.size() ? all[i] : std::nan("");
+    };
+    for (std::size_t i = 0; i < h.channels.size(); ++i) {
+        add("RMSE of " + h.channels[i], at(h.rmse_before, i), at(h.rmse_after, i), [&](double x) {
+            return rounded_text(x, rounding::nearest) + unit_suffix(unit_of(h.channels[i]));
+        });
     }
-    add("samples in the predicted tube", h.covered_before, h.covered_after, detail::counted_share);
-    add("width of that tube, in bounds", h.width_before, h.width_after, upward);
+    if (detail::has_tube(h)) {
+        add("samples in the predicted tube", h.covered_before, h.covered_after,
+            detail::counted_share);
+        add("width of that tube, in bounds", h.width_before, h.width_after, upward);
+    }
     return t;
 }
 
@@ -60,15 +79,15 @@ SIVID_DECL table holdout_candidates_table(diagnosis_view const& v, std::size_t m
                         {"width of the tube, in bounds (estimate)", column_kind::number}},
             .rows = {},
             .caption = "A wide tube covers much and says little."};
-    for (candidate_view const* c : foremost(v, v.candidates.size())) {
+    for (cause const* c : foremost(v, v.causes.size())) {
         if (!c->holdout || t.rows.size() == most) continue;
-        holdout_view const& h = *c->holdout;
+        holdout_figures const& h = *c->holdout;
         if (c == answer_of(v)) t.chosen_row = t.rows.size();
         t.rows.push_back(
             {names_of(c->effects),
              says_something(h.inflation_after) ? inflation_text(h.inflation_after) : "not bounded",
-             std::isfinite(h.covered_after) ? detail::counted_share(h.covered_after) : "",
-             std::isfinite(h.width_after) ? rounded_text(h.width_after, rounding::up) : ""});
+             detail::has_tube(h) ? detail::counted_share(h.covered_after) : "",
+             detail::has_tube(h) ? rounded_text(h.width_after, rounding::up) : ""});
     }
     return t.rows.size() > 1 ? t : table{};
 }
