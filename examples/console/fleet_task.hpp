@@ -7,8 +7,8 @@
 #include "console/program.hpp"
 
 #include <sivid/io/dataset/dataset_digest.hpp>
+#include <sivid/io/text/durable_file.hpp>
 #include <sivid/io/text/json_writer.hpp>
-#include <sivid/io/text/text_file.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -155,7 +155,7 @@ public:
         sivid::json_writer json;
         json.begin_object().members("format", format, "of", key(), "code", code, "seconds", took);
         json.end_object();
-        sivid::write_atomically(note_file(), json.text());
+        sivid::write_durably(note_file(), json.text());
         return "ended with " + std::to_string(code) + " after " + text_of("%.3g s", took);
     }
 

@@ -25,7 +25,7 @@ namespace sivid {
 /// bound").
 ///   json_writer json;
 ///   json.begin_object().members("hull", x, "unit", "m^2").end_object();
-///   write_atomically(path, json.text());
+///   write_durably(path, json.text());
 class json_writer {
 public:
     /// How the members of an object or a list are laid out.
