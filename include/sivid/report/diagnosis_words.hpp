@@ -33,9 +33,6 @@ namespace sivid::report {
 /// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
 [[nodiscard]] SIVID_DECL std::string shrink_text(range const& share);
 
-/// Whether what is proved of a number is less than what was allowed.
-[[nodiscard]] SIVID_DECL bool is_narrowed(named_estimate const& e);
-
 /// Proved bounds of a number, outward, but not beyond what was allowed: "0.16 to 0.18"; "not
 /// narrowed" where they are the prior; empty where nothing is known.
 [[nodiscard]] SIVID_DECL std::string hull_text(named_estimate const& e);
@@ -58,9 +55,6 @@ namespace sivid::report {
 
 /// The factor in the words of a sentence: "3.1 to 3.2 times the measurement bounds (proved)".
 [[nodiscard]] SIVID_DECL std::string gap_clause(diagnosis_view const& v);
-
-/// How the answer stands: "explains all data (proved)".
-[[nodiscard]] SIVID_DECL std::string answer_verdict(diagnosis_view const& v);
 
 /// "a first-order lag of the rudder, tau = 0.169 s (0.16 to 0.18, proved), explains all data"
 [[nodiscard]] SIVID_DECL std::string answer_clause(diagnosis_view const& v);

@@ -101,9 +101,6 @@ private:
     double low_ = 0, high_ = 1;
 };
 
-SIVID_DECL std::string_view state_colour(cause_verdict s);
-SIVID_DECL std::string_view state_ink(cause_verdict s);
-
 } // namespace detail
 
 [[nodiscard]] SIVID_DECL std::vector<legend_entry>

@@ -19,7 +19,6 @@ struct time_plot_options {
     double width = 360;
     double height = 230;
     std::string title{};
-    std::string time_unit = "s";
     range time{};                   ///< empty: what the data need
     bool legend = false;            ///< draw the legend below (for a picture that stands alone)
     std::size_t most_samples = 400; ///< more are thinned evenly; outliers are always drawn

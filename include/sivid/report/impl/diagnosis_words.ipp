@@ -73,7 +73,8 @@ SIVID_DECL std::string shrink_text(range const& share) {
     return (low == high ? low : low + " to " + high) + "\xC2\xA0%";
 }
 
-SIVID_DECL bool is_narrowed(named_estimate const& e) {
+/// Whether what is proved of a number is less than what was allowed.
+inline bool is_narrowed(named_estimate const& e) {
     range const hull = e.hull, prior = e.prior;
     if (!is_finite(hull)) return false;
     return !is_finite(prior) || hull.hi - hull.lo < 0.999 * (prior.hi - prior.lo);
@@ -170,7 +171,8 @@ SIVID_DECL std::string gap_clause(diagnosis_view const& v) {
     }
 }
 
-SIVID_DECL std::string answer_verdict(diagnosis_view const& v) {
+/// How the answer stands: "explains all data (proved)".
+inline std::string answer_verdict(diagnosis_view const& v) {
     cause const* const c = answer_of(v);
     bool const many = v.effects.size() > 1;
     std::string const explain = many ? "together explain" : "explains";

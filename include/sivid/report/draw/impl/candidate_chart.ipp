@@ -51,14 +51,14 @@ SIVID_DECL std::string estimate_text(double x) {
 
 namespace detail {
 
-SIVID_DECL std::string_view state_colour(cause_verdict s) {
+inline std::string_view state_colour(cause_verdict s) {
     return s == cause_verdict::explains   ? palette::inside
            : s == cause_verdict::excluded ? palette::outlier
                                           : palette::frame;
 }
 
 // Of a sign in the same meaning: dark enough for a letter.
-SIVID_DECL std::string_view state_ink(cause_verdict s) {
+inline std::string_view state_ink(cause_verdict s) {
     return s == cause_verdict::explains   ? palette::inside
            : s == cause_verdict::excluded ? palette::outlier_ink
                                           : palette::muted_ink;

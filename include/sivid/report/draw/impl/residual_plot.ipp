@@ -25,7 +25,7 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
             shown = hull(hull(shown, std::clamp(r.lo, -4.0, 4.0)), std::clamp(r.hi, -4.0, 4.0));
         }
     }
-    axes const a{{"time", o.time_unit, is_empty(o.time) ? detail::time_range(c) : o.time},
+    axes const a{{"time", "s", is_empty(o.time) ? detail::time_range(c) : o.time},
                  {"model / bound", "", shown},
                  {.width = o.width, .height = o.height, .title = o.title}};
     a.draw_ground(out);
@@ -47,9 +47,8 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
         ++drawn;
         range const r = approximate_residual(m);
         double const top = a.py(r.hi), low = a.py(r.lo), x = a.px(m.time);
-        std::string const tip = stride == 1 || m.state != sample_state::regular
-                                    ? detail::sample_tip(c, m, o.time_unit)
-                                    : "";
+        std::string const tip =
+            stride == 1 || m.state != sample_state::regular ? detail::sample_tip(c, m) : "";
         if (m.state == sample_state::regular) {
             out.rect(x - 2.4, top - 0.5, 4.8, low - top + 1,
                      {.fill = palette::tube, .stroke = palette::tube_edge, .width = 0.9}, 1, tip);

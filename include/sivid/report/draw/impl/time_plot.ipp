@@ -124,7 +124,7 @@ SIVID_DECL svg draw_time_plot(channel_series const& c, time_plot_options const& 
     svg measure{0, 0, ""};
     double const below = draw_legend(measure, entries, 0, 0, o.width - 60);
     svg out{o.width, o.height + below, (o.title.empty() ? c.name : o.title) + " over time"};
-    axes const a{{"time", o.time_unit, is_empty(o.time) ? detail::time_range(c) : o.time},
+    axes const a{{"time", "s", is_empty(o.time) ? detail::time_range(c) : o.time},
                  {c.name, c.unit, detail::value_range(c)},
                  {.width = o.width, .height = o.height, .title = o.title}};
     a.draw_ground(out);
@@ -143,16 +143,14 @@ SIVID_DECL svg draw_time_plot(channel_series const& c, time_plot_options const& 
             marked.push_back(&m);
         } else if (i % stride == 0) {
             draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi),
-                          palette::measurement,
-                          stride == 1 ? detail::sample_tip(c, m, o.time_unit) : "");
+                          palette::measurement, stride == 1 ? detail::sample_tip(c, m) : "");
         }
     }
     for (std::size_t i = 0; i < marked.size(); ++i) {
         measured_sample const& m = *marked[i];
         draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::outlier);
         if (i < 4 * o.most_samples) {
-            detail::draw_outlier(out, a, m, approximate_middle(m.value),
-                                 detail::sample_tip(c, m, o.time_unit));
+            detail::draw_outlier(out, a, m, approximate_middle(m.value), detail::sample_tip(c, m));
         }
     }
     out.close();

@@ -49,6 +49,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t most_pavings = 6; ///< projections on pairs of parameters
+
     [[nodiscard]] model_description const& about() const { return problem_.model.about; }
     [[nodiscard]] std::vector<std::string> const& names() const { return problem_.choice.unknown; }
     [[nodiscard]] std::string unit_of(std::size_t j) const {
@@ -267,7 +269,7 @@ private:
         if (found_.witness) {
             p.witness = found_.witness->parameters;
         }
-        view_.pavings = projections(p, found_.entangled, options_.most_pavings);
+        view_.pavings = projections(p, found_.entangled, most_pavings);
     }
 
     void add_product_pavings() {
@@ -292,7 +294,7 @@ private:
         if (found_.witness) {
             p.witness = mid(map.forward(point_box(found_.witness->parameters)));
         }
-        view_.product_pavings = projections(p, products, options_.most_pavings);
+        view_.product_pavings = projections(p, products, most_pavings);
     }
 
     identification_problem const& problem_;

@@ -16,9 +16,6 @@
 /// The key figures and tables of a diagnosis's page.
 namespace sivid::report {
 
-/// Candidates other than the model as it is.
-[[nodiscard]] SIVID_DECL std::size_t effects_tried(diagnosis_view const& v);
-
 [[nodiscard]] SIVID_DECL std::vector<card> diagnosis_cards(diagnosis_view const& v);
 
 /// The answer point by point, for the reader in a hurry.

@@ -6,7 +6,8 @@
 
 namespace sivid::report {
 
-SIVID_DECL std::size_t effects_tried(diagnosis_view const& v) {
+/// Candidates other than the model as it is.
+inline std::size_t effects_tried(diagnosis_view const& v) {
     return static_cast<std::size_t>(std::count_if(
         v.causes.begin(), v.causes.end(), [](cause const& c) { return !c.effects.empty(); }));
 }
