@@ -8,7 +8,7 @@
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/result/certificates_csv.hpp>
-#include <sivid/report/draw/residual_plot.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>

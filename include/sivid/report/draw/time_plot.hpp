@@ -50,6 +50,18 @@ SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, 
 [[nodiscard]] SIVID_DECL svg draw_time_plot(channel_series const& c,
                                             time_plot_options const& o = {});
 
+/// True when a sample can be compared with the model: both intervals finite, the bound above zero.
+[[nodiscard]] SIVID_DECL bool has_residual(measured_sample const& m);
+
+/// The model's enclosure in units of the measurement's own bound, for drawing:
+///   \f$ (\text{enclosure} - \text{mid}) / \text{rad} \f$; inside [-1, 1] the sample is met.
+[[nodiscard]] SIVID_DECL range approximate_residual(measured_sample const& m);
+
+/// Where the model's enclosure lies within each measured interval: 0 is its middle, +-1 its ends.
+/// What a time plot hides in a line as thin as a pixel is seen here.
+[[nodiscard]] SIVID_DECL svg draw_residual_plot(channel_series const& c,
+                                                time_plot_options const& o = {});
+
 } // namespace sivid::report
 
 #ifndef SIVID_COMPILED

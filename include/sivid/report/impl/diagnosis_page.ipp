@@ -13,7 +13,6 @@
 #include <sivid/report/page/detail/advice.hpp>
 #include <sivid/report/page/detail/diagnosis_figures.hpp>
 #include <sivid/report/page/detail/diagnosis_tables.hpp>
-#include <sivid/report/page/detail/holdout_tables.hpp>
 #include <sivid/report/page/detail/identification_parameters.hpp>
 #include <sivid/version.hpp>
 

@@ -7,7 +7,6 @@
 #include <sivid/report/identification_page.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/draw/residual_plot.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/page/detail/identification_parameters.hpp>

@@ -44,6 +44,13 @@ inline constexpr std::string_view value_note =
 /// Every constant of the model of the answer, its own and those of the effects.
 [[nodiscard]] SIVID_DECL table constants_table(diagnosis_view const& v);
 
+/// How well the hold-out data are met, before and after.
+[[nodiscard]] SIVID_DECL table holdout_table(diagnosis_view const& v, holdout_figures const& h);
+
+/// Candidates side by side on the hold-out data; only when there are several.
+[[nodiscard]] SIVID_DECL table holdout_candidates_table(diagnosis_view const& v,
+                                                        std::size_t most = 8);
+
 } // namespace sivid::report
 
 #ifndef SIVID_COMPILED
