@@ -27,28 +27,29 @@ namespace console {
 
 namespace detail {
 
-inline std::vector<sivid::report::missing_rate_data>
+inline std::vector<sivid::report::missing_rate_series>
 missing_rates(sivid::place_estimate const& places,
               std::vector<sivid::relation_finding> const& findings) {
-    std::vector<sivid::report::missing_rate_data> result;
+    std::vector<sivid::report::missing_rate_series> result;
     for (auto const& p : places.places) {
         if (p.kind == sivid::place_kind::sensor) continue;
         for (auto const& r : p.rates) {
-            sivid::report::missing_rate_data d{p.name,   r.scenario,   p.unit, r.times,
-                                               r.values, r.deviations, {}};
+            sivid::report::missing_rate_series d{p.name, r.scenario, p.unit};
+            for (std::size_t k = 0; k < r.times.size(); ++k) {
+                double const v = r.values[k], off = r.deviations[k];
+                d.estimate.push_back({r.times[k], v, {v - off, v + off}});
+            }
             for (auto const& f : findings) {
                 if (f.name != p.name || !f.place || !f.place->missing) continue;
                 auto const& [window, value, unit] = *f.place->missing;
                 if (window.scenario != r.scenario) continue;
-                d.windows.push_back({window.from, window.to, value});
+                d.certified.push_back({window.from, window.to, value});
             }
             result.push_back(std::move(d));
         }
     }
     return result;
 }
-
-inline sivid::report::range range_of(sivid::interval const& x) { return {x.lower(), x.upper()}; }
 
 /// A value with its unit.
 inline std::string value_words(sivid::named_estimate const& e) {
@@ -86,7 +87,7 @@ inline void print_combinations(sivid::diagnosis const& d) {
     for (auto const& c : d.combinations) {
         auto const& p = c.about;
         std::cout << "  told together: " << value_words(p) << ", within "
-                  << sivid::report::outward_text(range_of(*p.hull)) << " (proved)\n";
+                  << sivid::report::outward_text(*p.hull) << " (proved)\n";
     }
 }
 
@@ -97,8 +98,7 @@ inline void print_times(sivid::diagnosis const& d) {
         for (auto const& o : times) {
             bool const known = o.hull && o.prior && width(*o.hull) < width(*o.prior);
             std::cout << what << value_words(o)
-                      << (known ? ", within " + sivid::report::outward_text(range_of(*o.hull)) +
-                                      " s (proved)"
+                      << (known ? ", within " + sivid::report::outward_text(*o.hull) + " s (proved)"
                                 : std::string{"; no other time is excluded"})
                       << "\n";
         }
@@ -112,21 +112,20 @@ inline void print_holdout(sivid::diagnosis const& d) {
     if (d.answer != sivid::answer_kind::effects || d.causes.empty() || !d.causes.front().holdout)
         return;
     auto const& h = *d.causes.front().holdout;
-    std::cout << "  inflation on the held-out data: "
-              << report::inflation_text(range_of(h.inflation_before)) << " without it, "
-              << report::inflation_text(range_of(h.inflation_after)) << " with it";
+    std::cout << "  inflation on the held-out data: " << report::inflation_text(h.inflation_before)
+              << " without it, " << report::inflation_text(h.inflation_after) << " with it";
     if (d.shrink_holdout && std::isfinite(d.shrink_holdout->lower()))
-        std::cout << ": the gap shrinks by " << report::shrink_text(range_of(*d.shrink_holdout));
+        std::cout << ": the gap shrinks by " << report::shrink_text(*d.shrink_holdout);
     if (d.shrink_over_fits && d.shrink_over_fits->lower() > 0)
         std::cout << "; for every parameter that explains the other data, by "
-                  << report::shrink_text(range_of(*d.shrink_over_fits));
+                  << report::shrink_text(*d.shrink_over_fits);
     std::cout << "\n";
 }
 
 /// "open: 8 of 36 candidates tried, no pair"
 inline std::string answer_words(sivid::diagnosis const& d) {
     if (d.answer == sivid::answer_kind::effects) return sivid::joined(d.effects, " + ");
-    auto const tried = sivid::report::tried_text(sivid::report::view_of(d));
+    auto const tried = sivid::report::tried_text(d.tried);
     return std::string{to_string(d.answer)} + (tried.empty() ? "" : ": " + tried);
 }
 
@@ -199,7 +198,7 @@ inline std::string inflation_words(sivid::diagnosis_run const& run,
             std::is_permutation(c.effects.begin(), c.effects.end(), effects.begin(), effects.end()))
             known = c.inflation;
     }
-    return sivid::report::outward_text(detail::range_of(known));
+    return sivid::report::outward_text(known);
 }
 
 /// "as it is" or "+ overflow + offset"
@@ -217,13 +216,11 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
                           std::filesystem::path const& out) {
     namespace report = sivid::report;
     std::cout << id << ": gap " << to_string(d.gap) << ", inflation "
-              << (report::says_something(detail::range_of(d.inflation))
-                      ? report::inflation_text(detail::range_of(d.inflation))
-                      : std::string{"not bounded"})
+              << (report::says_something(d.inflation) ? report::inflation_text(d.inflation)
+                                                      : std::string{"not bounded"})
               << "\n";
-    auto const view = sivid::report::view_of(d);
-    for (auto const& words : view.why) std::cout << "  " << words << "\n";
-    for (auto const& c : view.confined) std::cout << "  " << report::confined_clause(c) << "\n";
+    for (auto const& words : report::view_of(d).why) std::cout << "  " << words << "\n";
+    for (auto const& c : d.confined) std::cout << "  " << report::confined_clause(c) << "\n";
     for (auto const& p : d.where) {
         std::cout << "  where: " << p.kind << " " << p.name << (p.proved ? " (proved)" : "")
                   << (p.law.empty() ? "" : ", like ") << p.law << "\n";
@@ -239,7 +236,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
     detail::print_times(d);
     detail::print_constants(d);
     detail::print_combinations(d);
-    for (auto const& e : view.at_ends) {
+    for (auto const& e : d.at_ends) {
         std::cout << "  " << report::end_words(e) << "\n";
     }
     if (d.remainder) {
@@ -247,8 +244,7 @@ inline void print_summary(sivid::diagnosis const& d, std::string const& id,
                   << (d.remainder->effects.empty()
                           ? std::string{"the model as it is"}
                           : "with " + sivid::joined(d.remainder->effects, " + "))
-                  << ", inflation "
-                  << report::inflation_text(detail::range_of(d.remainder->inflation)) << "\n";
+                  << ", inflation " << report::inflation_text(d.remainder->inflation) << "\n";
     }
     for (auto const& other : d.indistinguishable) {
         std::cout << "  not told apart from it: " << sivid::joined(other, " + ") << "\n";

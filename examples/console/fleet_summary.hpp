@@ -101,7 +101,7 @@ inline int write_fleet_summary(std::vector<fleet_task> const& list,
     for (auto const& task : list) rows.push_back(detail::row_of(task));
     std::string csv = "dataset,state,found,bounds_of,lower,upper,exit_code,seconds\n";
     sivid::json_writer json;
-    json.begin_object().key("format").string("sivid-fleet-summary-1").key("datasets").begin_array();
+    json.begin_object().members("format", "sivid-fleet-summary-1").key("datasets").begin_array();
     std::map<std::string, std::size_t> counts;
     double seconds = 0;
     int code = done;
@@ -112,9 +112,8 @@ inline int write_fleet_summary(std::vector<fleet_task> const& list,
                (ran ? std::to_string(r.note.code) : "") + "," +
                (ran ? text_of("%.3f", r.note.seconds) : "") + "\n";
         json.begin_object(sivid::json_writer::layout::one_line);
-        json.key("dataset").string(r.name).key("state").string(r.state);
-        json.key("found").string(r.found);
-        if (ran) json.key("exit_code").integer(r.note.code).key("seconds").nearest(r.note.seconds);
+        json.members("dataset", r.name, "state", r.state, "found", r.found);
+        if (ran) json.members("exit_code", r.note.code, "seconds", r.note.seconds);
         json.end_object();
         ++counts[r.state == "result" ? r.found : r.state];
         seconds += r.note.seconds;
@@ -122,9 +121,7 @@ inline int write_fleet_summary(std::vector<fleet_task> const& list,
             code = r.note.code == bad_input ? bad_input : internal_error;
         if (r.state == "missing" && code == done) code = undecided;
     }
-    json.end_array().key("counts").begin_object();
-    for (auto const& [what, count] : counts) json.key(what).integer(count);
-    json.end_object().key("seconds").nearest(seconds).end_object();
+    json.end_array().named("counts", counts).members("seconds", seconds).end_object();
     sivid::file_set files(out);
     files.add("fleet.csv", csv);
     files.add("fleet.json", json.text());

@@ -7,8 +7,8 @@
 #include "console/program.hpp"
 
 #include <sivid/io/dataset/dataset_digest.hpp>
+#include <sivid/io/text/durable_file.hpp>
 #include <sivid/io/text/json_writer.hpp>
-#include <sivid/io/text/text_file.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <nlohmann/json.hpp>
@@ -153,9 +153,9 @@ public:
         if (code >= 1000) return "ended by signal " + std::to_string(code - 1000);
         if (stopped) return "stopped early";
         sivid::json_writer json;
-        json.begin_object().key("format").string(format).key("of").string(key());
-        json.key("code").integer(code).key("seconds").nearest(took).end_object();
-        sivid::write_atomically(note_file(), json.text());
+        json.begin_object().members("format", format, "of", key(), "code", code, "seconds", took);
+        json.end_object();
+        sivid::write_durably(note_file(), json.text());
         return "ended with " + std::to_string(code) + " after " + text_of("%.3g s", took);
     }
 

@@ -259,20 +259,13 @@ private:
 
 /// What was hidden in the data, for the one who wants to check an answer.
 std::string truth_json(generated const& made, generate_command const& c) {
-    using layout = sivid::json_writer::layout;
     sivid::json_writer json;
-    json.begin_object();
-    json.key("format").string("hovercraft-truth-1");
-    json.key("seed").integer(c.options.seed);
-    json.key("parameters").begin_object(layout::one_line);
-    for (auto const& [name, value] : made.truth) json.key(name).decimal(value);
+    json.begin_object().members("format", "hovercraft-truth-1", "seed", c.options.seed);
+    json.named("parameters", made.truth);
+    json.list("outliers", made.outliers, [&](auto const& o) {
+        json.object("scenario", o.scenario, "t", o.time, "channel", o.channel);
+    });
     json.end_object();
-    json.key("outliers").begin_array();
-    for (auto const& o : made.outliers) {
-        json.begin_object(layout::one_line).key("scenario").string(o.scenario);
-        json.key("t").nearest(o.time).key("channel").string(o.channel).end_object();
-    }
-    json.end_array().end_object();
     return json.text();
 }
 

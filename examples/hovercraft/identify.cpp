@@ -22,6 +22,7 @@
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/result/problem_digest.hpp>
+#include <sivid/io/text/durable_file.hpp>
 #include <sivid/paving/outlier_budget.hpp>
 #include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/identifiability_words.hpp>
@@ -194,7 +195,7 @@ std::vector<std::string> draw_channel(sivid::report::identification_view const& 
                                                        .title = s.name + ": " + series.name,
                                                        .legend = true});
             auto const file = c.out / (s.name + "." + series.name + ".svg");
-            sivid::write_atomically(file, drawn.str());
+            sivid::write_durably(file, drawn.str());
             files.push_back(file.string());
         }
     }

@@ -17,17 +17,15 @@ namespace {
 
 using sivid::report::outward_text;
 
-sivid::report::range range_of(sivid::interval const& x) { return {x.lower(), x.upper()}; }
-
 void write_line(std::ostream& lines, double time, sivid::online_update const& now,
                 sivid::identification_problem const& problem) {
     lines << "  t = " << sivid::report::given_text(time) << " s, " << now.samples << " samples, "
           << sivid::report::duration_text(now.seconds) << ": " << to_string(now.verdict);
     for (std::size_t j = 0; j < now.hull.size() && now.live > 0; ++j) {
-        lines << ", " << problem.choice.unknown[j] << " " << outward_text(range_of(now.hull[j]));
+        lines << ", " << problem.choice.unknown[j] << " " << outward_text(now.hull[j]);
     }
     for (auto const& c : now.combinations) {
-        lines << ", " << c.what.formula << " " << outward_text(range_of(c.hull));
+        lines << ", " << c.what.formula << " " << outward_text(c.hull);
     }
     if (now.integrations > 0) lines << " (" << now.integrations << " runs from the begin)";
     lines << std::endl; // as it happens

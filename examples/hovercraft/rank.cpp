@@ -22,12 +22,10 @@ namespace {
 
 namespace report = sivid::report;
 
-report::range shown(sivid::interval const& x) { return {x.lower(), x.upper()}; }
-
 /// Widened a little where the bounds agree to many digits, so that they read well.
 report::range readable(sivid::interval const& x) {
     double const more = 2e-4 * x.upper();
-    return width(x) > more ? shown(x) : report::range{x.lower() - more, x.upper() + more};
+    return width(x) > more ? x : report::range{x.lower() - more, x.upper() + more};
 }
 
 std::string ranking_csv(std::vector<ranked_equation> const& ranking) {
@@ -141,10 +139,10 @@ int run(rank_command const& c) {
     std::vector<std::string> stated;
     for (std::size_t i = 0; i < ranges.states.size(); ++i)
         stated.push_back(model.about.states[i].name + " in " +
-                         report::given_text(shown(ranges.states[i])) + " " +
+                         report::given_text(ranges.states[i]) + " " +
                          report::unit_text(model.about.states[i].unit));
     stated.push_back(std::string{"W = "} + report::given_text(ranges.thrust_speed) +
-                     " 1/s, delta in " + report::given_text(shown(ranges.rudder)) + " rad");
+                     " 1/s, delta in " + report::given_text(ranges.rudder) + " rad");
     stated.push_back("priors: Sv, Sg and L those of Table 2.3, D11 in [0, 0.1] kg/s, every other "
                      "constant 10 % about its nominal value");
     for (auto const& d : model.about.constants) {

@@ -46,52 +46,52 @@ inline double example_output(std::size_t channel, double t, double phase, double
     }
 }
 
-inline sivid::report::scenario_data example_scenario(std::string name, bool holdout, double phase,
-                                                     double duration) {
+inline sivid::report::compared_scenario example_scenario(std::string name, bool holdout,
+                                                         double phase, double duration) {
     static char const* const names[] = {"u", "v", "r", "x", "y", "psi"};
     static char const* const units[] = {"m/s", "m/s", "rad/s", "m", "m", "rad"};
     static double const bounds[] = {0.06, 0.05, 0.05, 0.05, 0.05, 0.03};
-    sivid::report::scenario_data out{.name = std::move(name), .holdout = holdout};
-    for (int k = 0; k <= 200; ++k) out.line_times.push_back(duration * k / 200);
+    sivid::report::compared_scenario out{.name = std::move(name), .holdout = holdout};
     for (std::size_t c = 0; c < 6; ++c) {
-        sivid::report::channel_data d{.name = names[c], .unit = units[c]};
+        sivid::report::comparison_series d{.name = names[c], .unit = units[c]};
+        double const e = bounds[c];
         for (int k = 0; k <= (c > 2 && c < 5 ? 20 : 40); ++k) {
             double const t = duration * k / (c > 2 && c < 5 ? 20 : 40);
             double const noise = 0.8 * std::sin(37.0 * k + 11.0 * static_cast<double>(c) + phase);
-            d.times.push_back(t);
-            d.bounds.push_back(bounds[c]);
-            d.values.push_back(example_output(c, t, phase, 0.17) + bounds[c] * noise);
-            d.base.push_back(example_output(c, t, phase, 0));
-            d.after.push_back(example_output(c, t, phase, 0.169));
-            d.outliers.push_back(c == 1 && k == 17);
+            double const y = example_output(c, t, phase, 0.17) + e * noise;
+            bool const suspect = c == 1 && k == 17;
+            d.measured.push_back({.time = t,
+                                  .value = {y - e, y + e},
+                                  .state = suspect ? sivid::report::sample_state::suspect
+                                                   : sivid::report::sample_state::regular});
+            if (suspect) continue;
+            d.misfit_before.push_back({t, std::fabs(example_output(c, t, phase, 0) - y) / e});
+            d.misfit_after.push_back({t, std::fabs(example_output(c, t, phase, 0.169) - y) / e});
         }
-        for (double const t : out.line_times) {
-            d.base_line.push_back(example_output(c, t, phase, 0));
-            d.after_line.push_back(example_output(c, t, phase, 0.169));
+        for (int k = 0; k <= 200; ++k) {
+            double const t = duration * k / 200, y = example_output(c, t, phase, 0.169);
+            d.before.push_back({t, example_output(c, t, phase, 0)});
+            d.after.push_back({t, y});
             if (holdout && !d.tube.empty()) d.tube.back().to = t;
-            if (holdout) {
-                double const y = example_output(c, t, phase, 0.169), e = 0.4 * bounds[c];
-                d.tube.push_back({t, t, {y - e, y + e}});
-            }
+            if (holdout) d.tube.push_back({t, t, {y - 0.4 * e, y + 0.4 * e}});
         }
         out.channels.push_back(std::move(d));
     }
     return out;
 }
 
-inline sivid::report::missing_rate_data example_rate(std::string equation, std::string scenario,
-                                                     double size, double phase) {
-    sivid::report::missing_rate_data out{std::move(equation), std::move(scenario),
-                                         size > 1 ? "rad/s^2" : "m/s^2"};
+inline sivid::report::missing_rate_series example_rate(std::string equation, std::string scenario,
+                                                       double size, double phase) {
+    sivid::report::missing_rate_series out{std::move(equation), std::move(scenario),
+                                           size > 1 ? "rad/s^2" : "m/s^2"};
     for (int k = 0; k <= 60; ++k) {
-        double const t = k / 12.0;
-        out.times.push_back(t);
-        out.values.push_back(size * std::sin(2.2 * t + phase));
-        out.uncertainty.push_back(0.15 * size + 0.5 * size * std::exp(-3 * t));
+        double const t = k / 12.0, y = size * std::sin(2.2 * t + phase);
+        double const off = 0.15 * size + 0.5 * size * std::exp(-3 * t);
+        out.estimate.push_back({t, y, {y - off, y + off}});
     }
     for (double const t : {0.3, 1.2, 2.4, 3.9}) {
         double const y = size * std::sin(2.2 * (t + 0.3) + phase);
-        out.windows.push_back({t, t + 0.6, sivid::interval(y - 0.4 * size, y + 0.4 * size)});
+        out.certified.push_back({t, t + 0.6, {y - 0.4 * size, y + 0.4 * size}});
     }
     return out;
 }
@@ -146,7 +146,7 @@ inline diagnosis_example hovercraft_diagnosis() {
     using enum sivid::cause_verdict;
     double const inf = std::numeric_limits<double>::infinity();
     add({"rudder_lag"}, explains, interval(0.9703, 0.9791), 0.972,
-        {{"rudder_lag.tau", "s", 0.169, interval(0.1604, 0.1792)}});
+        {{"rudder_lag.tau", "s", 0.169, interval(0.1604, 0.1792), interval(0, 1)}});
     sivid::cause& lag = d.causes.back();
     lag.witness = sivid::named_witness{
         {{"Sv", "m^2", 0.2203, {}}, {"rudder_lag.tau", "s", 0.1690125, {}}},
@@ -165,15 +165,16 @@ inline diagnosis_example hovercraft_diagnosis() {
     h.width_before = 0.71;
     h.width_after = 0.84;
     add({"input_delay"}, undecided, interval(0.8, inf), 0.991,
-        {{"input_delay.tau", "s", 0.144, std::nullopt}});
+        {{"input_delay.tau", "s", 0.144, std::nullopt, interval(0, 0.5)}});
     add({"rudder_lag", "quadratic_yaw_damping"}, undecided, sivid::unknown_inflation(), 0.966,
-        {{"rudder_lag.tau", "s", 0.171, std::nullopt},
+        {{"rudder_lag.tau", "s", 0.171, std::nullopt, interval(0, 1)},
          {"quadratic_yaw_damping.k", "N m s^2", 0.004, std::nullopt}});
     add({"rudder_deadband"}, excluded, interval(1.62, 1.71), 1.68,
         {{"rudder_deadband.b", "rad", 0.03, std::nullopt}});
     add({"motor_lag", "thrust_loss_with_speed"}, undecided, interval(0.61, inf), 1.94, {});
     add({"wind"}, excluded, interval(2.41, 2.63), 2.5,
-        {{"wind.wx", "m/s", 0.71, std::nullopt}, {"wind.wy", "m/s", -0.2, std::nullopt}});
+        {{"wind.wx", "m/s", 0.71, std::nullopt, interval(-2, 2)},
+         {"wind.wy", "m/s", -0.2, std::nullopt, interval(-2, 2)}});
     for (char const* const name : {"cg_offset", "ground_slope", "battery_sag", "payload",
                                    "dry_yaw_friction", "friction_anisotropy"}) {
         add({name}, undecided, sivid::unknown_inflation(),
@@ -208,10 +209,6 @@ inline diagnosis_example hovercraft_diagnosis() {
     e.options.model = "hovercraft";
     e.options.meanings = {{"rudder_lag", "a first-order lag of the rudder"},
                           {"input_delay", "a pure delay of the rudder command"}};
-    e.options.priors = {{"rudder_lag.tau", interval(0, 1)},
-                        {"input_delay.tau", interval(0, 0.5)},
-                        {"wind.wx", interval(-2, 2)},
-                        {"wind.wy", interval(-2, 2)}};
     e.options.date = "2026-01-31";
     e.options.machine = "2 cores";
     e.options.command = "hovercraft diagnose data/dev000 --out out";

@@ -12,6 +12,7 @@
 
 using namespace sivid::report;
 using namespace sivid_tests;
+using sivid::interval;
 
 namespace {
 
@@ -72,20 +73,22 @@ TEST_CASE("diagnosis page: an empty diagnosis renders") {
 TEST_CASE("diagnosis page: hostile texts stay texts") {
     std::string const evil = "<script>alert(1)</script>\" onload='x' & \x01\xFF]]>";
     diagnosis_view v = hovercraft_diagnosis().view();
-    v.dataset = v.model = v.version = v.date = v.machine = v.command = evil;
-    v.meanings["rudder_lag"] = evil;
-    v.places[0].name = v.places[0].kind = v.places[0].law = v.places[0].regime = evil;
-    v.places[0].unit = v.places[0].where.scenario = v.places[0].alternatives[0] = evil;
+    v.about.dataset = v.about.model = v.about.date = v.about.machine = v.about.command = evil;
+    v.about.meanings["rudder_lag"] = evil;
+    v.where[0].name = v.where[0].kind = v.where[0].law = v.where[0].regime = evil;
+    v.where[0].unit = v.where[0].where.scenario = v.where[0].alternatives[0] = evil;
     v.relations[0].equation = v.relations[0].sensors[0] = v.relations[0].assumptions[0] = evil;
-    v.candidates[1].effects = {evil, evil};
-    v.candidates[0].parameters[0].name = v.candidates[0].parameters[0].unit = evil;
-    v.candidates[0].holdout->channels[0].name = evil;
-    v.candidates[0].witness->initial[0].scenario = evil;
-    v.confined = {{evil, {evil}, {2, 3}}};
-    v.scenario_gaps[0].name = v.unobservable[0] = v.next->manoeuvre = evil;
-    v.missing_rates[0].equation = v.missing_rates[0].scenario = v.missing_rates[0].unit = evil;
-    v.scenarios[0].name = v.scenarios[0].channels[0].name = v.scenarios[0].channels[0].unit = evil;
-    v.assumptions = v.warnings = v.absorbed = {evil};
+    v.causes[1].effects = {evil, evil};
+    v.causes[0].parameters[0].name = v.causes[0].parameters[0].unit = evil;
+    v.causes[0].holdout->channels[0] = evil;
+    v.causes[0].witness->starts[0].scenario = evil;
+    v.confined = {{evil, {evil}, sivid::interval(2, 3)}};
+    v.scenario_inflation[0].name = v.unobservable[0] = v.next->manoeuvre = evil;
+    v.plots.missing_rates[0].equation = v.plots.missing_rates[0].scenario =
+        v.plots.missing_rates[0].unit = evil;
+    v.plots.scenarios[0].name = v.plots.scenarios[0].channels[0].name =
+        v.plots.scenarios[0].channels[0].unit = evil;
+    v.assumptions = v.about.warnings = {evil};
     std::string const page = diagnosis_page(v).str();
     check_contained(page);
     CHECK(occurrences(page, " onload=") == occurrences(page, "&quot; onload="));
@@ -96,45 +99,45 @@ TEST_CASE("diagnosis page: extreme and undefined numbers, long names") {
     double const inf = std::numeric_limits<double>::infinity(),
                  nan = std::numeric_limits<double>::quiet_NaN();
     diagnosis_view v = hovercraft_diagnosis().view();
-    v.dataset =
+    v.about.dataset =
         "campaign_of_a_very_long_night_on_the_lake_with_a_name_that_does_not_end_2026_01_31";
-    v.gap = gap_state::open;
-    v.inflation = {0.31, inf};
-    v.places[0].missing = {-inf, 1e300};
-    v.places[1].estimate = nan;
-    v.places[2].where = {"a_scenario_with_a_long_name_too", -1e300, 1e300};
-    v.candidates[0].inflation = {12.5, 1e12};
-    v.candidates[1].inflation = {nan, nan};
-    v.candidates[2].fitted = nan;
-    v.candidates[3].fitted = inf;
-    v.candidates[4].fitted = 1e250;
-    v.candidates[5].inflation = {-inf, inf};
-    v.candidates[0].parameters[0].value = nan;
-    v.candidates[0].parameters[0].hull = {-inf, inf};
-    v.candidates[0].holdout->inflation_before = {3, inf};
-    v.candidates[0].holdout->channels[1].rmse_before = inf;
-    v.candidates[0].holdout->covered_before = nan;
-    v.candidates[1].effects = {"quadratic_yaw_damping", "thrust_loss_with_speed",
-                               "friction_anisotropy", "linear_surge_damping"};
-    v.shrink_holdout = {-inf, 0.4};
-    v.shrink_fit = {-0.5, -0.1};
+    v.gap = sivid::gap_verdict::undecided;
+    v.inflation = interval(0.31, inf);
+    v.where[0].missing = interval(-inf, 1e300);
+    v.where[1].estimate = nan;
+    v.where[2].where = {"a_scenario_with_a_long_name_too", -1e300, 1e300};
+    v.causes[0].inflation = interval(12.5, 1e12);
+    v.causes[1].inflation = intersect(interval(0, 1), interval(2, 3)); // empty
+    v.causes[2].fitted_inflation = nan;
+    v.causes[3].fitted_inflation = inf;
+    v.causes[4].fitted_inflation = 1e250;
+    v.causes[5].inflation = interval(-inf, inf);
+    v.causes[0].parameters[0].value = nan;
+    v.causes[0].parameters[0].hull = interval(-inf, inf);
+    v.causes[0].holdout->inflation_before = interval(3, inf);
+    v.causes[0].holdout->rmse_before[1] = inf;
+    v.causes[0].holdout->covered_before = nan;
+    v.causes[1].effects = {"quadratic_yaw_damping", "thrust_loss_with_speed", "friction_anisotropy",
+                           "linear_surge_damping"};
+    v.shrink_holdout = interval(-inf, 0.4);
+    v.shrink_fit = interval(-0.5, -0.1);
     v.next->separation = inf;
     v.seconds = nan;
     v.interrupted = true;
-    v.missing_rates[0].estimate[3] = {nan, nan, {nan, nan}};
-    v.missing_rates[0].estimate[9].value = inf;
-    v.missing_rates[0].certified[0].value = {-inf, inf};
-    v.missing_rates[1].certified[1].value = {-1e300, 1e300};
-    v.missing_rates[2].estimate.clear();
-    v.missing_rates[3] = {"yaw", "nothing", "", {}, {}};
-    v.scenarios[0].channels[0].before[7] = {nan, inf};
-    v.scenarios[0].channels[1].before[7].y = 1e300;
-    v.scenarios[0].channels[2].misfit_before[3] = {nan, nan};
-    v.scenarios[0].channels[2].misfit_before[4].y = inf;
-    v.scenarios[0].channels[2].misfit_after[5].y = 1e200;
-    v.scenarios[0].channels[3].measured[2] = {nan, {nan, nan}};
-    v.scenarios[1].channels.clear();
-    v.scenarios[2].channels[0] = {};
+    v.plots.missing_rates[0].estimate[3] = {nan, nan, {nan, nan}};
+    v.plots.missing_rates[0].estimate[9].value = inf;
+    v.plots.missing_rates[0].certified[0].value = {-inf, inf};
+    v.plots.missing_rates[1].certified[1].value = {-1e300, 1e300};
+    v.plots.missing_rates[2].estimate.clear();
+    v.plots.missing_rates[3] = {"yaw", "nothing", "", {}, {}};
+    v.plots.scenarios[0].channels[0].before[7] = {nan, inf};
+    v.plots.scenarios[0].channels[1].before[7].y = 1e300;
+    v.plots.scenarios[0].channels[2].misfit_before[3] = {nan, nan};
+    v.plots.scenarios[0].channels[2].misfit_before[4].y = inf;
+    v.plots.scenarios[0].channels[2].misfit_after[5].y = 1e200;
+    v.plots.scenarios[0].channels[3].measured[2] = {nan, {nan, nan}};
+    v.plots.scenarios[1].channels.clear();
+    v.plots.scenarios[2].channels[0] = {};
     std::string const page = written(v, "diagnosis_page_extreme.html");
     check_contained(page);
     CHECK_THAT(page, ContainsSubstring("at least 0.309"));
@@ -144,8 +147,10 @@ TEST_CASE("diagnosis page: extreme and undefined numbers, long names") {
 TEST_CASE("diagnosis page: more candidates than rows") {
     diagnosis_view v = hovercraft_diagnosis().view();
     for (int k = 0; k < 80; ++k) {
-        v.candidates.insert(v.candidates.begin(),
-                            {.effects = {"effect_" + std::to_string(k)}, .fitted = 40.0 + k});
+        sivid::cause c;
+        c.effects = {"effect_" + std::to_string(k)};
+        c.fitted_inflation = 40.0 + k;
+        v.causes.insert(v.causes.begin(), c);
     }
     std::string const page = written(v, "diagnosis_page_many.html");
     check_contained(page);
@@ -157,24 +162,24 @@ TEST_CASE("diagnosis page: more candidates than rows") {
 
 TEST_CASE("diagnosis page: a gap that nothing explains") {
     diagnosis_view v = hovercraft_diagnosis().view();
-    v.answer = answer_state::unexplained;
+    v.answer = sivid::answer_kind::unexplained;
     v.effects.clear();
     v.indistinguishable.clear();
     v.shrink_fit = v.shrink_holdout = {};
     v.next.reset();
-    for (candidate_view& c : v.candidates) {
-        c.state = candidate_state::excluded;
-        c.inflation = {1.8, 2.1};
+    for (sivid::cause& c : v.causes) {
+        c.verdict = sivid::cause_verdict::excluded;
+        c.inflation = interval(1.8, 2.1);
         c.witness.reset();
     }
-    for (compared_scenario& s : v.scenarios) {
+    for (compared_scenario& s : v.plots.scenarios) {
         for (comparison_series& c : s.channels) {
             c.after.clear();
             c.misfit_after.clear();
             c.tube.clear();
         }
     }
-    v.confined = {{"", {"S4", "S7"}, {3.1, 3.3}}, {"v", {}, {0, 4.25}}};
+    v.confined = {{"", {"S4", "S7"}, interval(3.1, 3.3)}, {"v", {}, interval(0, 4.25)}};
     std::string const page = written(v, "diagnosis_page_unexplained.html");
     check_contained(page);
     CHECK_THAT(page, ContainsSubstring("Gap (proved); no candidate explains it"));
@@ -188,13 +193,13 @@ TEST_CASE("diagnosis page: a gap that nothing explains") {
 }
 
 TEST_CASE("diagnosis page: where no effect is found nothing removes a part of the gap") {
-    for (auto const kind : {answer_state::unexplained, answer_state::open}) {
+    for (auto const kind : {sivid::answer_kind::unexplained, sivid::answer_kind::open}) {
         diagnosis_view v = hovercraft_diagnosis().view();
         v.answer = kind;
         v.effects.clear();
         v.indistinguishable.clear();
-        v.shrink_fit = {0.493, 0.494};
-        v.shrink_holdout = {0.262, 0.538};
+        v.shrink_fit = interval(0.493, 0.494);
+        v.shrink_holdout = interval(0.262, 0.538);
         auto const cards = diagnosis_cards(v);
         for (auto const& c : cards) CHECK_THAT(c.name, !ContainsSubstring("gap removed"));
         CHECK(diagnosis_page(v).str().find("of the gap (proved)") == std::string::npos);
@@ -203,9 +208,10 @@ TEST_CASE("diagnosis page: where no effect is found nothing removes a part of th
 
 TEST_CASE("diagnosis page: every constant, and those at the end of their prior") {
     diagnosis_view v = hovercraft_diagnosis().view();
-    v.constants = {{"Sv", "m^2", 0.25, {}, {0.2, 0.25}, true},
-                   {"rudder_lag.tau", "s", 0.169, {0.16, 0.18}, {0, 1}, true}};
-    v.at_ends = {{{"rudder_lag"}, v.constants[0], true}};
+    v.constants = {{"Sv", "m^2", 0.25, {}, interval(0.2, 0.25)},
+                   {"rudder_lag.tau", "s", 0.169, interval(0.16, 0.18), interval(0, 1)}};
+    v.constants_verified = true;
+    v.at_ends = {{{"rudder_lag"}, v.constants[0], sivid::prior_end::upper}};
     std::string const page = written(v, "diagnosis_page_constants.html");
     check_contained(page);
     CHECK_THAT(page, ContainsSubstring("All constants of the model with rudder_lag"));

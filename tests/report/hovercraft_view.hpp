@@ -196,7 +196,8 @@ inline sivid::report::identification_view hovercraft_view(std::size_t boxes, boo
          "L and Sg enter the model only through this product: no data can tell them apart."}};
     v.volume_inner = {2.11e-4, 2.12e-4};
     v.volume_outer = {5.71e-4, 5.72e-4};
-    v.witness = witness_view{{{"Sv", "m^2", 0.22003}, {"Sg", "m^2", 0.0399871}, {"L", "m", 0.3001}},
+    v.witness =
+        sivid::named_witness{{{"Sv", "m^2", 0.22003}, {"Sg", "m^2", 0.0399871}, {"L", "m", 0.3001}},
                              {{"S3", {{"u", "m/s", 2}, {"v", "m/s", 0}}}}};
     v.assumptions = {
         "The inputs W and delta are exact and linear between their samples.",

@@ -28,15 +28,14 @@ TEST_CASE("page: every element, well-formed, in order, with ids that do not clas
                             : std::exp(2.2 * std::sin(0.2 * k + 2 * c) - (c == 2 ? -0.8 : 1.4)));
         }
     }
-    svg const bars =
-        draw_bar_chart({{"rudder_lag", {0.97, 0.98}, palette::inside, "explains"},
-                        {"wind", {2.4, 2.6}, palette::blue, "excluded"},
-                        {"input_delay", {0.8, 3.3}, palette::reddish_purple, "undecided"},
-                        {"(nothing added)", {3.1, 3.2}, palette::vermillion}},
-                       {.width = 1000,
-                        .quantity = "inflation that is left",
-                        .threshold = 1.0,
-                        .threshold_label = "below 1: data explained"});
+    svg const bars = draw_bar_chart({{"rudder_lag", {0.97, 0.98}, "explains"},
+                                     {"wind", {2.4, 2.6}, "excluded"},
+                                     {"input_delay", {0.8, 3.3}, "undecided"},
+                                     {"(nothing added)", {3.1, 3.2}}},
+                                    {.width = 1000,
+                                     .quantity = "inflation that is left",
+                                     .threshold = 1.0,
+                                     .threshold_label = "below 1: data explained"});
     page p{{.kind = "Demo", .title = "All <elements>", .lead = "of a page"}};
     p.banner(outcome::undecided, "Not decided", "yet")
         .banner(outcome::refuted, "Refuted", "now")

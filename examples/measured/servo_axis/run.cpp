@@ -8,7 +8,7 @@
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/result/certificates_csv.hpp>
-#include <sivid/report/draw/residual_plot.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>
@@ -177,8 +177,8 @@ void add_literature(report::page& page, posed_problem const& posed, outcome_of_r
     for (std::size_t j = 0; j < values.size(); ++j) {
         auto const& name = problem.choice.unknown[j];
         auto const k = sivid::index_of(problem.model.about.constants, name, "constant");
-        auto const prior = report::detail::shown(problem.prior[j]);
-        auto const hull = report::detail::shown(o.found.hull[j]);
+        report::range const prior = problem.prior[j];
+        report::range const hull = o.found.hull[j];
         t.rows.push_back({name, problem.model.about.constants[k].unit, report::given_text(prior),
                           report::outward_text_within(hull, prior), text_of("%.7g", values[j]),
                           contains(o.found.hull[j], values[j]) ? "yes" : "no"});

@@ -15,7 +15,6 @@
 #include <sivid/report/draw/impl/paving_projections.ipp>
 #include <sivid/report/draw/impl/paving_raster.ipp>
 #include <sivid/report/draw/impl/plane_plot.ipp>
-#include <sivid/report/draw/impl/residual_plot.ipp>
 #include <sivid/report/draw/impl/svg.ipp>
 #include <sivid/report/draw/impl/ticks.ipp>
 #include <sivid/report/draw/impl/time_plot.ipp>
@@ -38,7 +37,6 @@
 #include <sivid/report/page/impl/advice.ipp>
 #include <sivid/report/page/impl/diagnosis_figures.ipp>
 #include <sivid/report/page/impl/diagnosis_tables.ipp>
-#include <sivid/report/page/impl/holdout_tables.ipp>
 #include <sivid/report/page/impl/identification_parameters.ipp>
 #include <sivid/report/text/impl/escape.ipp>
 #include <sivid/report/text/impl/rounded_decimal.ipp>

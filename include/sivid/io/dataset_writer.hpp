@@ -12,6 +12,7 @@
 #include <sivid/io/text/text_file.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -87,79 +88,51 @@ namespace sivid {
 
 /// The text of `dataset.json`.
 [[nodiscard]] inline std::string dataset_json(dataset const& data, model_names const& model) {
-    using layout = json_writer::layout;
+    constexpr auto one_line = json_writer::layout::one_line;
+    auto const range = [](stated_range const& r) { return std::array{r.lower, r.upper}; };
     json_writer json;
-    auto const range = [&](stated_range const& r) {
-        json.begin_array(layout::one_line).decimal(r.lower).decimal(r.upper).end_array();
-    };
-    json.begin_object();
-    json.key("format")
-        .string("sivid-dataset-1")
-        .key("id")
-        .string(data.id)
-        .key("model")
-        .string(data.model);
-    json.key("parameters").begin_object();
-    for (auto const& p : data.parameters) {
-        json.key(p.name).begin_object(layout::one_line).key("prior");
-        range(p.prior);
-        if (!p.unit.empty()) json.key("unit").string(p.unit);
+    json.begin_object().members("format", "sivid-dataset-1", "id", data.id, "model", data.model);
+    json.named("parameters", data.parameters, [&](dataset_parameter const& p) {
+        json.begin_object(one_line).members("prior", range(p.prior));
+        if (!p.unit.empty()) json.members("unit", p.unit);
         json.end_object();
-    }
-    json.end_object();
+    });
     if (!data.fixed.empty()) {
         json.key("fixed").begin_object();
         for (auto const& f : data.fixed)
-            json.key(model.constants.at(f.constant).name).decimal(f.stated);
+            json.members(model.constants.at(f.constant).name, f.stated);
         json.end_object();
     }
-    json.key("max_outlier_fraction").decimal(data.max_outlier_fraction);
-    json.key("scenarios").begin_array();
-    for (auto const& s : data.scenarios) {
+    json.members("max_outlier_fraction", data.max_outlier_fraction);
+    json.list("scenarios", data.scenarios, [&](scenario const& s) {
         bool const hold =
             !s.inputs.empty() && s.inputs.front().signal.kind() == interpolation::hold;
-        json.begin_object();
-        json.key("name").string(s.name).key("role").string(
-            s.role == scenario_role::fit ? "fit" : "holdout");
-        json.key("duration").nearest(s.duration);
-        json.key("inputs")
-            .string(s.name + ".inputs.csv")
-            .key("interpolation")
-            .string(hold ? "hold" : "linear");
-        json.key("measurements").string(s.name + ".measurements.csv");
-        json.key("initial").begin_object(layout::one_line);
+        json.begin_object().members("name", s.name);
+        json.members("role", s.role == scenario_role::fit ? "fit" : "holdout");
+        json.members("duration", s.duration, "inputs", s.name + ".inputs.csv");
+        json.members("interpolation", hold ? "hold" : "linear");
+        json.members("measurements", s.name + ".measurements.csv");
+        json.key("initial").begin_object(one_line);
         for (std::size_t i = 0; i < s.initial.size(); ++i) {
-            if (!s.initial[i].stated) continue;
-            json.key(model.states.at(i).name);
-            range(*s.initial[i].stated);
+            if (auto const& stated = s.initial[i].stated)
+                json.members(model.states.at(i).name, range(*stated));
         }
         json.end_object().end_object();
-    }
-    json.end_array();
+    });
     if (!data.effects.empty()) {
-        json.key("effects").begin_object();
-        for (auto const& e : data.effects) {
-            json.key(e.name);
+        json.named("effects", data.effects, [&](dataset_effect const& e) {
             if (e.off) {
-                json.string("off");
-                continue;
+                json.value("off");
+                return;
             }
-            json.begin_object(layout::one_line);
-            for (auto const& p : e.priors) {
-                json.key(p.parameter).begin_array(layout::one_line);
-                for (auto const* end : {&p.lower, &p.upper})
-                    json.decimal(exact_decimal::parse(*end).value());
-                json.end_array();
-            }
+            json.begin_object(one_line);
+            for (auto const& p : e.priors)
+                json.members(p.parameter, std::array{exact_decimal::parse(p.lower).value(),
+                                                     exact_decimal::parse(p.upper).value()});
             json.end_object();
-        }
-        json.end_object();
+        });
     }
-    if (!data.assumptions.empty()) {
-        json.key("assumptions").begin_array();
-        for (auto const& a : data.assumptions) json.string(a);
-        json.end_array();
-    }
+    if (!data.assumptions.empty()) json.members("assumptions", data.assumptions);
     json.end_object();
     return json.text();
 }

@@ -8,8 +8,6 @@
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/paving/identify.hpp>
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <set>
@@ -20,15 +18,6 @@
 namespace sivid {
 
 namespace io_detail {
-
-/// The decimal that is the double (at most 767 significant digits).
-inline std::string all_digits(double x) {
-    std::array<char, 1200> buffer;
-    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
-                                   std::chars_format::general, 767)
-                         .ptr;
-    return exact_decimal::parse({buffer.data(), end}).value_or(exact_decimal{}).text();
-}
 
 /// A text as a cell: in quotes where a comma or a quote would break the row.
 inline std::string cell(std::string const& text) {
@@ -47,8 +36,8 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
     // A side of no width, or nearly: inward decimals may pass each other; the doubles' own digits
     // (written in full) cannot.
     if (*exact_decimal::parse(high) < *exact_decimal::parse(low)) {
-        low = all_digits(side.lower());
-        high = all_digits(side.upper());
+        low = exact_decimal::of(side.lower()).text();
+        high = exact_decimal::of(side.upper()).text();
     }
     return {std::move(low), std::move(high)};
 }

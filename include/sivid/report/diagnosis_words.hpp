@@ -4,6 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/report/diagnosis_view.hpp>
+#include <sivid/report/draw/candidate_chart.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/words/detail/place_words.hpp>
 
@@ -32,24 +33,19 @@ namespace sivid::report {
 /// "98 to 100 %"; an upper end above 100 is impossible, a missing lower one is said.
 [[nodiscard]] SIVID_DECL std::string shrink_text(range const& share);
 
-/// Whether what is proved of a number is less than what was allowed.
-[[nodiscard]] SIVID_DECL bool is_narrowed(estimate_view const& e);
-
 /// Proved bounds of a number, outward, but not beyond what was allowed: "0.16 to 0.18"; "not
 /// narrowed" where they are the prior; empty where nothing is known.
-[[nodiscard]] SIVID_DECL std::string hull_text(estimate_view const& e);
-
-/// Whether all that was planned was tried.
-[[nodiscard]] SIVID_DECL bool tried_all(diagnosis_view const& v);
+[[nodiscard]] SIVID_DECL std::string hull_text(named_estimate const& e);
 
 /// "8 of 36 candidates tried, no pair"; empty when none was planned.
-[[nodiscard]] SIVID_DECL std::string tried_text(diagnosis_view const& v);
+[[nodiscard]] SIVID_DECL std::string tried_text(tried_candidates const& t);
 
 /// "k sits at the upper end of its prior [1, 2] (with wind): widen it"
-[[nodiscard]] SIVID_DECL std::string end_words(end_view const& e);
+[[nodiscard]] SIVID_DECL std::string end_words(constant_at_end const& e);
 
 /// "tau = 0.169 s (0.16 to 0.18, proved)"
-[[nodiscard]] SIVID_DECL std::string estimate_words(estimate_view const& e);
+/// @param verified  the value is that of a witness that explains the data
+[[nodiscard]] SIVID_DECL std::string estimate_words(named_estimate const& e, bool verified);
 
 /// What is drawn beside the model as it is: "with rudder_lag".
 [[nodiscard]] SIVID_DECL std::string after_words(diagnosis_view const& v);
@@ -59,9 +55,6 @@ namespace sivid::report {
 
 /// The factor in the words of a sentence: "3.1 to 3.2 times the measurement bounds (proved)".
 [[nodiscard]] SIVID_DECL std::string gap_clause(diagnosis_view const& v);
-
-/// How the answer stands: "explains all data (proved)".
-[[nodiscard]] SIVID_DECL std::string answer_verdict(diagnosis_view const& v);
 
 /// "a first-order lag of the rudder, tau = 0.169 s (0.16 to 0.18, proved), explains all data"
 [[nodiscard]] SIVID_DECL std::string answer_clause(diagnosis_view const& v);

@@ -17,20 +17,6 @@
 /// is computed in floating point.
 namespace sivid::report {
 
-namespace detail {
-
-SIVID_DECL std::string nearest_text(double x);
-
-/// "L * k, Sg / k" or "a + s, b - 2 s": what may move together.
-SIVID_DECL std::string motion_text(free_motion const& m,
-                                   std::vector<unknown_quantity> const& names);
-
-/// The components that matter, largest first: "L +1, Sg -0.12".
-SIVID_DECL std::string direction_text(sensitive_direction const& d,
-                                      std::vector<unknown_quantity> const& names);
-
-} // namespace detail
-
 /// One sentence a line: the ranks, what is free, what acts through which combinations, and the
 /// directions that the data notice least.
 /// @param directions  so many at most

@@ -27,7 +27,6 @@ struct identification_report_options {
     std::vector<std::string> further_assumptions{};
     std::optional<plane_channels> plane{};
     std::string date{}, machine{}, command{};
-    std::size_t most_pavings = 6; ///< projections on pairs of parameters
     /// False leaves out what is still to be simulated or evaluated for the pictures; may be empty.
     std::function<bool()> keep_going{};
 };

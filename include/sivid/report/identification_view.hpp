@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_IDENTIFICATION_VIEW_HPP
 #define SIVID_REPORT_IDENTIFICATION_VIEW_HPP
 
+#include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/report/draw/plane_plot.hpp>
 #include <sivid/report/draw/time_plot.hpp>
@@ -33,21 +34,6 @@ struct combination_view {
     range hull{};
     range prior{};      ///< its range over the prior, when known
     std::string note{}; ///< e.g. what the data cannot tell apart
-};
-
-struct named_value {
-    std::string name{};
-    std::string unit{};
-    double value = 0;
-};
-
-struct witness_view {
-    std::vector<named_value> parameters{};
-    struct start {
-        std::string scenario{};
-        std::vector<named_value> state{};
-    };
-    std::vector<start> initial{};
 };
 
 /// A marked measurement.
@@ -100,7 +86,7 @@ struct identification_view {
     range volume_outer{};
     /// The largest box that is proved to explain the data, in words: "S_v in [0.2, 0.3] m^2, ...".
     std::string inside_box{};
-    std::optional<witness_view> witness{};
+    std::optional<named_witness> witness{};
     std::vector<std::string> proved{}; ///< further statements in plain words
     /// What such data can tell about the unknowns at all, in sentences, and where.
     std::vector<std::string> identifiability{};

@@ -18,7 +18,7 @@ namespace sivid::report {
 
 /// "Sv = 0.22 m^2, L = 0.3 m"
 /// The values are exact: a witness can be checked again from the text.
-[[nodiscard]] SIVID_DECL std::string values_text(std::vector<named_value> const& all);
+[[nodiscard]] SIVID_DECL std::string values_text(std::vector<named_estimate> const& all);
 
 /// A share of the prior rounded up, in percent.
 [[nodiscard]] SIVID_DECL std::string at_most_percent(double share);

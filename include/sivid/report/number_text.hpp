@@ -33,11 +33,6 @@ namespace detail {
 
 inline bool needs_power(int lead) { return lead < -4 || lead > 6; }
 
-SIVID_DECL std::string special_text(double x);
-
-/// One number, rounded at 10^quantum and written relative to 10^power.
-SIVID_DECL std::string bound_text(double x, int quantum, int shift, int power, rounding way);
-
 } // namespace detail
 
 /// A number rounded in the given direction to some significant digits.

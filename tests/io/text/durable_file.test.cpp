@@ -27,6 +27,9 @@ TEST_CASE("what cannot be written says so and leaves the old content") {
     io_support::fs::create_directory(folder.path() / "state.txt");
     CHECK_THROWS_AS(sivid::write_durably(folder.path() / "state.txt", "x"), sivid::output_error);
     CHECK_FALSE(io_support::fs::exists(folder.path() / "state.txt.part"));
+    folder.write("file", "x");
+    CHECK_THROWS_AS(sivid::write_durably(folder.path() / "file" / "below", "y"),
+                    sivid::output_error);
     folder.write("old.txt", "old");
     io_support::fs::create_directory(folder.path() / "old.txt.part");
     CHECK_THROWS_AS(sivid::write_durably(folder.path() / "old.txt", "new"), sivid::output_error);

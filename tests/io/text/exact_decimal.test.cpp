@@ -3,6 +3,9 @@
 
 #include "support/catch.hpp"
 
+#include <bit>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -181,6 +184,24 @@ TEST_CASE("doubles become decimals") {
     for (int i = 0; i < 1000; ++i) {
         double const value = std::pow(10.0, draw(random));
         CHECK(*sivid::nearest(exact_decimal::shortest(value)) == value);
+    }
+}
+
+TEST_CASE("a double's own decimal has all of its digits") {
+    CHECK(exact_decimal::of(0.5) == dec("0.5"));
+    CHECK(exact_decimal::of(0.1) ==
+          dec("0.1000000000000000055511151231257827021181583404541015625"));
+    CHECK(exact_decimal::of(-3) == dec("-3"));
+    CHECK(exact_decimal::of(0) == dec("0"));
+    std::mt19937_64 random{3};
+    for (int k = 0; k < 3000; ++k) {
+        std::uint64_t const bits = k < 40 ? 1u + static_cast<std::uint64_t>(k) : random();
+        double const x = std::bit_cast<double>(bits); // the least ones first, then any
+        if (!std::isfinite(x)) continue;
+        char all[800];
+        auto const end =
+            std::to_chars(all, all + sizeof all, x, std::chars_format::scientific, 766).ptr;
+        REQUIRE(exact_decimal::of(x) == *exact_decimal::parse({all, end}));
     }
 }
 

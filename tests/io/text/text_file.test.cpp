@@ -6,25 +6,6 @@
 
 using namespace sivid;
 
-TEST_CASE("a file is written whole, replaces the old one and leaves nothing beside it") {
-    io_support::temporary_folder const folder;
-    write_atomically(folder.path() / "deep" / "er" / "a.txt", "first");
-    write_atomically(folder.path() / "deep" / "er" / "a.txt", "second");
-    CHECK(read_text(folder.path() / "deep" / "er" / "a.txt") == "second");
-    auto const entries = std::filesystem::directory_iterator{folder.path() / "deep" / "er"};
-    CHECK(std::distance(begin(entries), end(entries)) == 1);
-}
-
-TEST_CASE("a file that cannot be written is an output_error and leaves the old state") {
-    io_support::temporary_folder const folder;
-    folder.write("file", "x");
-    CHECK_THROWS_AS(write_atomically(folder.path() / "file" / "below", "y"), output_error);
-    std::filesystem::create_directories(folder.path() / "taken" / "inner");
-    CHECK_THROWS_AS(write_atomically(folder.path() / "taken", "y"), output_error);
-    auto const entries = std::filesystem::directory_iterator{folder.path()};
-    CHECK(std::distance(begin(entries), end(entries)) == 2);
-}
-
 TEST_CASE("reading a text drops the byte-order mark and needs a regular file") {
     io_support::temporary_folder const folder;
     folder.write("bom", "\xEF\xBB\xBFtext");

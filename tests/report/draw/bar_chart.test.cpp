@@ -10,15 +10,14 @@ using namespace sivid::report;
 using namespace sivid_tests;
 
 TEST_CASE("bar chart: bounds, threshold and notes") {
-    std::string const text =
-        draw_bar_chart({{"rudder_lag", {0.97, 0.98}, palette::inside, "explains"},
-                        {"wind", {2.4, 2.6}, palette::blue, "excluded"},
-                        {"none", {3.1, INFINITY}}},
-                       {.title = "Inflation left",
-                        .quantity = "inflation",
-                        .threshold = 1.0,
-                        .threshold_label = "data explained"})
-            .str();
+    std::string const text = draw_bar_chart({{"rudder_lag", {0.97, 0.98}, "explains"},
+                                             {"wind", {2.4, 2.6}, "excluded"},
+                                             {"none", {3.1, INFINITY}}},
+                                            {.title = "Inflation left",
+                                             .quantity = "inflation",
+                                             .threshold = 1.0,
+                                             .threshold_label = "data explained"})
+                                 .str();
     CHECK(markup_error(text) == "");
     CHECK_THAT(text, ContainsSubstring("rudder_lag"));
     CHECK_THAT(text, ContainsSubstring("[2.399, 2.601]"));
@@ -40,7 +39,7 @@ TEST_CASE("bar chart: a bar's length is its lower bound") {
 
 TEST_CASE("bar chart: empty, infinite and hostile") {
     CHECK(markup_error(draw_bar_chart({}).str()) == "");
-    std::string const text = draw_bar_chart({{"<b>", {}, palette::blue, "&"},
+    std::string const text = draw_bar_chart({{"<b>", {}, "&"},
                                              {"c", {-INFINITY, INFINITY}},
                                              {"d", {NAN, 1}},
                                              {"e", {0, 0}},

@@ -11,10 +11,10 @@ using namespace sivid_tests;
 
 TEST_CASE("candidate chart: what is proved and what is estimated is said in words") {
     std::vector<candidate_bar> const bars{
-        {"lag", candidate_state::explains, {0.875, 0.9375}, 0.9, true},
-        {"wind", candidate_state::excluded, {2.5, 2.625}, 2.55},
-        {"delay", candidate_state::open, {0, INFINITY}, 0.99},
-        {"sag", candidate_state::open, {1.02, INFINITY}, 1.9}};
+        {"lag", sivid::cause_verdict::explains, {0.875, 0.9375}, 0.9, true},
+        {"wind", sivid::cause_verdict::excluded, {2.5, 2.625}, 2.55},
+        {"delay", sivid::cause_verdict::undecided, {0, INFINITY}, 0.99},
+        {"sag", sivid::cause_verdict::undecided, {1.02, INFINITY}, 1.9}};
     std::string const text = draw_candidate_chart(bars).str();
     CHECK(markup_error(text) == "");
     CHECK_THAT(text, ContainsSubstring(">explains (proved), 0.875 to 0.938<"));
@@ -29,9 +29,9 @@ TEST_CASE("candidate chart: what is proved and what is estimated is said in word
 }
 
 TEST_CASE("candidate chart: large inflations are drawn on a logarithmic axis") {
-    std::vector<candidate_bar> const bars{{"a", candidate_state::explains, {0.5, 0.6}, 0.55},
-                                          {"b", candidate_state::open, {}, 140},
-                                          {"c", candidate_state::excluded, {30, 1e12}, 1e250}};
+    std::vector<candidate_bar> const bars{{"a", sivid::cause_verdict::explains, {0.5, 0.6}, 0.55},
+                                          {"b", sivid::cause_verdict::undecided, {}, 140},
+                                          {"c", sivid::cause_verdict::excluded, {30, 1e12}, 1e250}};
     std::string const text = draw_candidate_chart(bars, {.title = "t"}).str();
     CHECK(markup_error(text) == "");
     CHECK_THAT(text, ContainsSubstring("(logarithmic)"));
@@ -46,9 +46,9 @@ TEST_CASE("candidate chart: large inflations are drawn on a logarithmic axis") {
 TEST_CASE("candidate chart: empty, undefined and hostile") {
     CHECK(markup_error(draw_candidate_chart({}).str()) == "");
     std::vector<candidate_bar> const bars{
-        {"<b>\"&", candidate_state::open, {NAN, NAN}, NAN},
-        {"", candidate_state::excluded, {-INFINITY, INFINITY}, INFINITY},
-        {std::string(300, 'w'), candidate_state::explains, {0, 0}, -1}};
+        {"<b>\"&", sivid::cause_verdict::undecided, {NAN, NAN}, NAN},
+        {"", sivid::cause_verdict::excluded, {-INFINITY, INFINITY}, INFINITY},
+        {std::string(300, 'w'), sivid::cause_verdict::explains, {0, 0}, -1}};
     CHECK(markup_error(draw_candidate_chart(bars).str()) == "");
 }
 

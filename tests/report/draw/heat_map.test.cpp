@@ -21,23 +21,6 @@ TEST_CASE("heat map: values above the threshold are orange and crossed") {
     CHECK_THAT(text, ContainsSubstring(orange_ramp.at(1)));
 }
 
-TEST_CASE("heat map: joined columns keep the largest value and the ends") {
-    heat_map m{.rows = {"u"}, .times = {}, .values = {{}}};
-    for (int k = 0; k < 5001; ++k) {
-        m.times.push_back(k);
-    }
-    m.values[0].assign(5000, 0.1);
-    m.values[0][3333] = 7;
-    m.values[0][10] = NAN;
-    heat_map const few = detail::joined(m, 100);
-    CHECK(few.times.size() <= 101);
-    CHECK(few.values[0].size() + 1 == few.times.size());
-    CHECK(few.times.front() == 0);
-    CHECK(few.times.back() == 5000);
-    CHECK(*std::max_element(few.values[0].begin(), few.values[0].end()) == 7);
-    CHECK(draw_heat_map(m).str().size() < 60'000);
-}
-
 TEST_CASE("heat map: empty, ragged, infinite and hostile") {
     CHECK(markup_error(draw_heat_map({}).str()) == "");
     heat_map const m{.rows = {"<a>", "b", "c"},

@@ -24,7 +24,7 @@ TEST_CASE("paving plot: a sheet of 100 000 boxes is a small picture with a zoom"
     CHECK(zoom->y.hi > 0.0483);
     CHECK(zoom->y.hi < 0.06);
     for (std::string const& text :
-         {draw_paving_plot(p, {.mark_zoom = true, .legend = true}).str(),
+         {draw_paving_plot(p, {.mark_zoom = true}).str(),
           draw_paving_plot(p, {.x_window = zoom->x, .y_window = zoom->y}).str()}) {
         CHECK(markup_error(text) == "");
         CHECK(text.size() < 160'000);

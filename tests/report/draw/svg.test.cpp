@@ -24,7 +24,7 @@ TEST_CASE("svg: shapes, groups and windows give balanced, finite markup") {
     s.clip(0, 0, 10, 10).circle(1, 2, 3, {.stroke = "#000", .width = 2, .dash = "1 2"});
     s.line(0, 0, NAN, 1, {.stroke = "\"evil<"});
     s.path(path_data{}.move(0, 0).line(1, 1).close(), {});
-    s.text(1, 2, "<script>", {.align = anchor::end, .bold = true, .italic = true, .rotate = -90});
+    s.text(1, 2, "<script>", {.align = anchor::end, .bold = true, .rotate = -90});
     s.rect(0, 0, 5, 5, {.fill = s.hatch("#ffffff", "#000000")});
     s.rect(0, 0, 5, 5, {.fill = s.dots("#ffffff", "#000000")});
     // Two elements are left open: they are closed in the text.
@@ -42,8 +42,6 @@ TEST_CASE("svg: data for the page's script") {
     CHECK(markup_error(s.str()) == "");
     CHECK_THAT(s.str(),
                ContainsSubstring(" data-x=\"1 2\" data-x-name=\"&quot;&gt;&lt;script&gt;\""));
-    CHECK(machine_number(0.1) == "0.1");
-    CHECK(machine_number(-1e300) == "-1e+300");
 }
 
 TEST_CASE("svg: ids take the prefix of the page, and no text can forge one") {

@@ -7,6 +7,7 @@
 #include <sivid/measurement/error_bound.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -143,58 +144,37 @@ public:
     /// The same in the format sivid-import-1, complete.
     [[nodiscard]] std::string json() const {
         using layout = json_writer::layout;
+        auto const plain = [](std::string const& s) { return printable_text(s); };
         json_writer j;
-        j.begin_object()
-            .key("format")
-            .string("sivid-import-1")
-            .key("dataset")
-            .string(printable_text(dataset));
-        j.key("mapping").string(printable_text(mapping)).key("scenarios").begin_array();
-        for (auto const& s : scenarios) {
-            j.begin_object(layout::one_line)
-                .key("name")
-                .string(printable_text(s.name))
-                .key("role")
-                .string(s.role);
-            j.key("file").string(printable_text(s.file)).key("lines").integer(s.lines);
-            j.key("first").integer(s.first).key("last").integer(s.last);
-            j.key("rows").integer(s.rows).key("measurements").integer(s.measurements);
-            j.key("begin").string(s.begin).key("duration").string(s.duration).end_object();
-        }
-        j.end_array().key("notes").begin_array();
-        for (auto const& n : notes_) {
-            j.begin_object(layout::one_line).key("kind").string(word(n.what));
-            j.key("scenario")
-                .string(printable_text(n.scenario))
-                .key("field")
-                .string(printable_text(n.field));
-            j.key("reason").string(printable_text(n.reason)).key("count").integer(n.lines.size());
-            j.key("lines").begin_array();
-            for (auto const& [first, last] : ranges(n.lines))
-                j.begin_array().integer(first).integer(last).end_array();
-            j.end_array().end_object();
-        }
-        j.end_array().key("bounds").begin_array();
-        for (auto const& b : bounds) {
-            j.begin_object()
-                .key("quantity")
-                .string(printable_text(b.quantity))
-                .key("unit")
-                .string(printable_text(b.unit));
-            j.key("bound").string(b.bound).key("scenarios").begin_array();
-            for (auto const& [name, p] : b.scenarios) {
-                j.begin_object(layout::one_line).key("scenario").string(printable_text(name));
-                j.key("bound").nearest(p.bound).key("quantum").nearest(p.quantum);
-                j.key("spread").nearest(p.spread);
-                j.key("largest_residual").nearest(p.largest_residual);
-                j.key("support").integer(p.support).key("outliers").integer(p.outliers);
-                j.key("refusal").string(p.refusal).key("assumptions").begin_array();
-                for (auto const& a : p.assumptions) j.string(printable_text(a));
-                j.end_array().end_object();
-            }
-            j.end_array().end_object();
-        }
-        return j.end_array().end_object().text();
+        j.begin_object().members("format", "sivid-import-1", "dataset", plain(dataset));
+        j.members("mapping", plain(mapping));
+        j.list("scenarios", scenarios, [&](scenario_summary const& s) {
+            j.object("name", plain(s.name), "role", s.role, "file", plain(s.file), "lines", s.lines,
+                     "first", s.first, "last", s.last, "rows", s.rows, "measurements",
+                     s.measurements, "begin", s.begin, "duration", s.duration);
+        });
+        j.list("notes", notes_, [&](note const& n) {
+            j.begin_object(layout::one_line).members("kind", word(n.what));
+            j.members("scenario", plain(n.scenario), "field", plain(n.field));
+            j.members("reason", plain(n.reason), "count", n.lines.size());
+            j.list("lines", ranges(n.lines), [](auto const& r) {
+                return std::array{r.first, r.second};
+            });
+            j.end_object();
+        });
+        j.list("bounds", bounds, [&](proposed_bound const& b) {
+            j.begin_object().members("quantity", plain(b.quantity), "unit", plain(b.unit));
+            j.members("bound", b.bound).list("scenarios", b.scenarios, [&](auto const& s) {
+                auto const& p = s.second;
+                j.begin_object(layout::one_line).members("scenario", plain(s.first));
+                j.members("bound", p.bound, "quantum", p.quantum, "spread", p.spread);
+                j.members("largest_residual", p.largest_residual, "support", p.support);
+                j.members("outliers", p.outliers, "refusal", p.refusal);
+                j.list("assumptions", p.assumptions, plain).end_object();
+            });
+            j.end_object();
+        });
+        return j.end_object().text();
     }
 
 private:

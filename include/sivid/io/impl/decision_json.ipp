@@ -9,8 +9,11 @@
 #include <sivid/io/text/json_writer.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,93 +23,47 @@ namespace io_detail {
 
 inline void write_head(json_writer& json, char const* format, stored_prediction const& about,
                        decision_json_options const& options) {
-    json.key("format").string(format);
-    json.key("dataset").string(options.dataset);
-    json.key("result").begin_object();
-    json.key("folder").string(options.source_folder);
-    json.key("sha256").string(options.source_digest).end_object();
-    json.key("scenario").string(options.scenario);
-    json.key("duration").nearest(about.problem.end);
-    json.key("set").begin_object();
-    for (auto const& [name, range] : options.set) json.key(name).bounds(range);
-    json.end_object();
+    json.members("format", format, "dataset", options.dataset);
+    json.key("result").object("folder", options.source_folder, "sha256", options.source_digest);
+    json.members("scenario", options.scenario, "duration", about.problem.end);
+    json.named("set", options.set);
     if (!options.law.empty()) {
-        json.key("law").string(options.law).key("sensors").begin_object();
-        for (auto const& [channel, bound] : options.sensors) json.key(channel).upper_bound(bound);
-        json.end_object();
-        if (options.sampled > 0)
-            json.key("sampled").nearest(options.sampled).key("delay").nearest(options.delay);
+        json.members("law", options.law).named("sensors", options.sensors, [&](auto const& sensor) {
+            json.upper_bound(sensor.second);
+        });
+        if (options.sampled > 0) json.members("sampled", options.sampled, "delay", options.delay);
     }
-    json.key("coordinates").begin_array(json_writer::layout::one_line);
-    for (auto const& side : about.sides) json.string(side);
-    json.end_array();
-    if (!about.not_in_products.empty()) json.key("not_in_products").string(about.not_in_products);
-    json.key("boxes").integer(about.problem.sets.size());
-    json.key("assumptions").begin_array();
-    for (auto const& a : about.assumptions) json.string(a);
-    json.end_array();
-}
-
-inline void write_box(json_writer& json, std::vector<std::string> const& names, box const& x) {
-    json.begin_object(json_writer::layout::one_line);
-    for (std::size_t i = 0; i < x.size(); ++i) json.key(names[i]).bounds(x[i]);
-    json.end_object();
-}
-
-inline void write_bounds(json_writer& json, double low, double high) {
-    json.begin_array(json_writer::layout::one_line).lower_bound(low).upper_bound(high).end_array();
-}
-
-inline std::vector<std::string> names_of_states(model_description const& about) {
-    std::vector<std::string> names;
-    for (auto const& s : about.states) names.push_back(s.name);
-    return names;
+    json.members("coordinates", about.sides);
+    if (!about.not_in_products.empty()) json.members("not_in_products", about.not_in_products);
+    json.members("boxes", about.problem.sets.size(), "assumptions", about.assumptions);
 }
 
 /// A motion that violates, with its parameters.
 inline void write_motion(json_writer& json, stored_prediction const& about,
                          violating_motion const& w) {
-    auto const states = names_of_states(about.direct.model.about);
-    json.begin_object();
-    json.key("parameters").begin_object(json_writer::layout::one_line);
-    for (std::size_t j = 0; j < w.parameters.size(); ++j)
-        json.key(about.direct.choice.unknown[j]).nearest(w.parameters[j]);
-    json.end_object();
-    json.key("initial").begin_object(json_writer::layout::one_line);
-    for (std::size_t i = 0; i < w.start.size(); ++i) json.key(states[i]).nearest(w.start[i]);
-    json.end_object();
-    json.key("robustness");
-    io_detail::write_bounds(json, w.found.low, w.found.high);
-    json.key("time").nearest(w.time);
-    json.key("feasible")
-        .string("proved by validated runs through the data" +
-                (about.feasible_with.empty() ? "" : ", of which " + about.feasible_with));
+    json.begin_object().named("parameters", about.direct.choice.unknown, w.parameters);
+    json.named("initial", about.direct.model.about.states, w.start);
+    json.key("robustness").bounds(w.found.low, w.found.high).members("time", w.time);
+    json.members("feasible",
+                 "proved by validated runs through the data" +
+                     (about.feasible_with.empty() ? "" : ", of which " + about.feasible_with));
     json.end_object();
 }
 
 inline void write_worth(json_writer& json, identification_problem const& about,
                         measurement_ranking const& found) {
-    json.begin_object();
-    json.key("explained").string(to_string(found.explained)).key("volume");
-    write_bounds(json, found.volume.lower(), found.volume.upper());
-    json.key("coordinates").begin_array(json_writer::layout::one_line);
-    for (auto const& c : found.coordinates) json.string(c);
-    json.end_array().key("complete").boolean(found.complete).key("without").begin_array();
-    for (auto const& g : found.groups) {
+    json.begin_object().members("explained", to_string(found.explained), "volume", found.volume);
+    json.members("coordinates", found.coordinates, "complete", found.complete);
+    json.list("without", found.groups, [&](auto const& g) {
         auto const& what = g.what;
         json.begin_object(json_writer::layout::one_line);
-        if (what.channel)
-            json.key("channel").string(about.model.about.channels[*what.channel].name);
-        if (what.experiment)
-            json.key("experiment").string(about.experiments[*what.experiment].name);
-        if (std::isfinite(what.from)) json.key("from").nearest(what.from);
-        if (std::isfinite(what.to)) json.key("to").nearest(what.to);
-        json.key("measurements").integer(g.measurements).key("growth");
-        write_bounds(json, g.growth.lower(), g.growth.upper());
-        json.end_object();
-    }
-    json.end_array().key("integrations").integer(found.integrations);
-    json.key("seconds").nearest(found.seconds).end_object();
+        if (what.channel) json.members("channel", about.model.about.channels[*what.channel].name);
+        if (what.experiment) json.members("experiment", about.experiments[*what.experiment].name);
+        if (std::isfinite(what.from)) json.members("from", what.from);
+        if (std::isfinite(what.to)) json.members("to", what.to);
+        json.members("measurements", g.measurements, "growth", g.growth).end_object();
+    });
+    json.members("integrations", found.integrations, "seconds", found.seconds).end_object();
 }
 
 } // namespace io_detail
@@ -116,19 +73,12 @@ SIVID_DECL std::string prediction_json(stored_prediction const& about, predictio
     json_writer json;
     json.begin_object();
     io_detail::write_head(json, "sivid-prediction-1", about, options);
-    json.key("complete").boolean(found.complete);
-    json.key("reached").nearest(found.reached);
-    json.key("excess").upper_bound(found.excess);
-    json.key("tubes").string("tubes.csv");
-    json.key("at_end").begin_object();
-    for (auto const& tube : found.channels) {
-        json.key(tube.name);
-        io_detail::write_bounds(json, tube.low.back(), tube.high.back());
-    }
-    json.end_object();
-    json.key("parts").integer(found.parts);
-    json.key("integrations").integer(found.integrations);
-    json.key("seconds").nearest(found.seconds).end_object();
+    json.members("complete", found.complete, "reached", found.reached);
+    json.key("excess").upper_bound(found.excess).members("tubes", "tubes.csv");
+    json.named("at_end", found.channels,
+               [&](predicted_tube const& tube) { json.bounds(tube.low.back(), tube.high.back()); });
+    json.members("parts", found.parts, "integrations", found.integrations);
+    json.members("seconds", found.seconds).end_object();
     return json.text();
 }
 
@@ -164,37 +114,21 @@ SIVID_DECL std::string verification_json(stored_prediction const& about, require
     json_writer json;
     json.begin_object();
     io_detail::write_head(json, "sivid-verification-1", about, options);
-    json.key("requirement").string(asked.text);
-    json.key("answer").string(to_string(found.answer));
-    json.key("robustness");
-    io_detail::write_bounds(json, found.found.low, found.found.high);
-    json.key("reached").nearest(found.reached);
-    auto const states = io_detail::names_of_states(about.direct.model.about);
-    json.key("witness");
-    if (found.witness) {
-        io_detail::write_motion(json, about, *found.witness);
-    } else {
-        json.null();
-    }
-    json.key("open_boxes").integer(found.open.size());
-    json.key("open").begin_array();
-    for (std::size_t k = 0; k < found.open.size() && k < 1000; ++k) {
-        auto const& b = found.open[k];
-        json.begin_object();
-        json.key("parameters");
-        io_detail::write_box(json, about.sides, b.parameters);
-        json.key("initial");
-        io_detail::write_box(json, states, b.initial);
-        json.key("robustness");
-        io_detail::write_bounds(json, b.found.low, b.found.high);
-        json.key("reached").nearest(b.reached);
-        json.key("why").string(to_string(b.why)).end_object();
-    }
-    json.end_array();
-    json.key("parts").integer(found.parts);
-    json.key("integrations").integer(found.integrations);
-    json.key("instants").integer(found.times.size());
-    json.key("seconds").nearest(found.seconds).end_object();
+    json.members("requirement", asked.text, "answer", to_string(found.answer));
+    json.key("robustness").bounds(found.found.low, found.found.high);
+    json.members("reached", found.reached);
+    json.maybe("witness", found.witness,
+               [&](violating_motion const& w) { io_detail::write_motion(json, about, w); });
+    json.members("open_boxes", found.open.size());
+    std::span const shown{found.open.data(), std::min<std::size_t>(found.open.size(), 1000)};
+    json.list("open", shown, [&](auto const& b) {
+        json.begin_object().named("parameters", about.sides, b.parameters);
+        json.named("initial", about.direct.model.about.states, b.initial);
+        json.key("robustness").bounds(b.found.low, b.found.high);
+        json.members("reached", b.reached, "why", to_string(b.why)).end_object();
+    });
+    json.members("parts", found.parts, "integrations", found.integrations);
+    json.members("instants", found.times.size(), "seconds", found.seconds).end_object();
     return json.text();
 }
 
@@ -204,74 +138,44 @@ SIVID_DECL std::string control_json(stored_prediction const& about, requirement 
     json_writer json;
     json.begin_object();
     io_detail::write_head(json, "sivid-control-1", about, options);
-    json.key("requirement").string(asked.text);
-    json.key("gains").begin_array(json_writer::layout::one_line);
-    for (auto const& name : found.names) json.string(name);
-    json.end_array();
+    json.members("requirement", asked.text, "gains", found.names);
     auto const& paving = found.paving.paving;
-    json.key("answer").string(found.some_proved()   ? "proved"
-                              : found.none_exists() ? "none"
-                                                    : "open");
-    json.key("reason").string(to_string(found.paving.reason));
+    json.members("answer", found.some_proved() ? "proved" : found.none_exists() ? "none" : "open");
+    json.members("reason", to_string(found.paving.reason));
     json.key("proved_share").lower_bound(std::max(0.0, paving.inner_volume().lower()));
     json.key("left_share").upper_bound(std::min(1.0, paving.outer_volume().upper()));
-    json.key("boxes_file").string("gains.csv");
-    json.key("suggested");
+    json.members("boxes_file", "gains.csv");
     if (found.suggested) {
-        json.begin_object(json_writer::layout::one_line);
-        for (std::size_t k = 0; k < found.names.size(); ++k)
-            json.key(found.names[k]).nearest((*found.suggested)[k]);
-        json.end_object();
+        json.named("suggested", found.names, *found.suggested);
     } else {
-        json.null();
+        json.key("suggested").null();
     }
-    json.key("tolerance");
-    if (found.tolerance.size() > 0) {
-        json.begin_object(json_writer::layout::one_line);
-        for (std::size_t k = 0; k < found.names.size(); ++k) {
-            json.key(found.names[k]).begin_array(json_writer::layout::one_line);
-            json.nearest(found.tolerance[k].lower()).nearest(found.tolerance[k].upper());
-            json.end_array();
-        }
-        json.end_object();
-    } else {
-        json.null();
-    }
+    json.maybe(
+        "tolerance", found.tolerance.size() > 0 ? &found.tolerance : nullptr,
+        [&](box const& around) {
+            json.begin_object(json_writer::layout::one_line);
+            for (std::size_t k = 0; k < around.size(); ++k)
+                json.members(found.names[k], std::array{around[k].lower(), around[k].upper()});
+            json.end_object();
+        });
     if (proof != nullptr) {
-        json.key("answer_for_suggested").string(to_string(proof->answer));
-        json.key("robustness");
-        io_detail::write_bounds(json, proof->found.low, proof->found.high);
+        json.members("answer_for_suggested", to_string(proof->answer));
+        json.key("robustness").bounds(proof->found.low, proof->found.high);
     }
-    json.key("against").begin_array();
-    for (auto const& w : found.against) io_detail::write_motion(json, about, w);
-    json.end_array();
-    json.key("parts").integer(found.parts);
-    json.key("integrations").integer(found.integrations);
-    json.key("seconds").nearest(found.seconds).end_object();
+    json.list("against", found.against,
+              [&](violating_motion const& w) { io_detail::write_motion(json, about, w); });
+    json.members("parts", found.parts, "integrations", found.integrations);
+    json.members("seconds", found.seconds).end_object();
     return json.text();
 }
 
 namespace io_detail {
 
 inline void write_manoeuvre(json_writer& json, tried_manoeuvre const& m) {
-    json.begin_object();
-    json.key("shape").string(m.name).key("settings").begin_object();
-    for (std::size_t k = 0; k < m.about.size(); ++k)
-        json.key(m.about[k].name).nearest(m.settings[k]);
-    json.end_object();
-    json.key("estimate").nearest(m.estimate);
-    json.key("share");
-    if (m.promised) {
-        json.upper_bound(m.factor());
-    } else {
-        json.null();
-    }
-    json.key("limits");
-    if (m.limits) {
-        json.string(to_string(*m.limits));
-    } else {
-        json.null();
-    }
+    json.begin_object().members("shape", m.name).named("settings", m.about, m.settings);
+    json.members("estimate", m.estimate);
+    json.maybe("share", m.promised, [&](promise const&) { json.upper_bound(m.factor()); });
+    json.members("limits", m.limits ? std::optional{to_string(*m.limits)} : std::nullopt);
     json.end_object();
 }
 
@@ -284,26 +188,19 @@ SIVID_DECL std::string design_json(stored_prediction const& about, design_answer
     io_detail::write_head(json, "sivid-design-1", about, options);
     auto const* const best = found.found.best();
     bool const goals = !found.goals.empty();
-    json.key("answer").string(found.impossible           ? "hidden"
-                              : found.met()              ? "met"
-                              : best != nullptr && goals ? "less"
-                                                         : "open");
+    json.members("answer", found.impossible           ? "hidden"
+                           : found.met()              ? "met"
+                           : best != nullptr && goals ? "less"
+                                                      : "open");
     if (!goals)
-        json.key("first")
-            .string(found.first)
-            .key("second")
-            .string(found.second)
-            .key("second_sha256")
-            .string(options.against_digest);
-    json.key("target").nearest(found.target).key("jointly").boolean(found.jointly);
+        json.members("first", found.first, "second", found.second, "second_sha256",
+                     options.against_digest);
+    json.members("target", found.target, "jointly", found.jointly);
     if (best != nullptr && goals) json.key("share_of_volume").upper_bound(best->factor());
-    json.key("limits").string(found.limits);
-    json.key("hidden").string(found.hidden).key("instead").begin_array();
-    for (auto const& text : found.instead) json.string(text);
-    json.end_array();
+    json.members("limits", found.limits, "hidden", found.hidden, "instead", found.instead);
     json.key("goals").begin_array();
     for (std::size_t g = 0; g < found.goals.size(); ++g) {
-        json.begin_object(json_writer::layout::one_line).key("goal").string(found.goals[g].text);
+        json.begin_object(json_writer::layout::one_line).members("goal", found.goals[g].text);
         if (best != nullptr) {
             auto const& w = best->promised->goals[g];
             json.key("before").lower_bound(w.before).key("after").upper_bound(w.after);
@@ -311,25 +208,19 @@ SIVID_DECL std::string design_json(stored_prediction const& about, design_answer
         }
         json.end_object();
     }
-    json.end_array();
-    json.key("errors").begin_object(json_writer::layout::one_line);
+    json.end_array().key("errors").begin_object(json_writer::layout::one_line);
     auto const& channels = about.problem.model.about.channels;
     for (std::size_t c = 0; c < channels.size() && c < found.plan.errors.size(); ++c) {
-        if (found.plan.errors[c] > 0) json.key(channels[c].name).nearest(found.plan.errors[c]);
+        if (found.plan.errors[c] > 0) json.members(channels[c].name, found.plan.errors[c]);
     }
-    json.end_object().key("times").begin_array(json_writer::layout::one_line);
-    for (double const t : found.plan.times) json.nearest(t);
-    json.end_array().key("varied").begin_object();
-    for (auto const& u : found.varied) {
-        json.key(u.name).begin_array(json_writer::layout::one_line);
-        json.nearest(u.lower).nearest(u.upper).end_array();
-    }
-    json.end_object().key("tried").begin_array();
-    for (auto const& m : found.found.tried) io_detail::write_manoeuvre(json, m);
-    json.end_array();
-    json.key("looked_at").integer(found.found.simulated);
-    json.key("integrations").integer(found.found.integrations);
-    json.key("seconds").nearest(found.found.seconds).end_object();
+    json.end_object().members("times", found.plan.times);
+    json.named("varied", found.varied, [](varied_input const& u) {
+        return std::array{u.lower, u.upper};
+    });
+    json.list("tried", found.found.tried,
+              [&](tried_manoeuvre const& m) { io_detail::write_manoeuvre(json, m); });
+    json.members("looked_at", found.found.simulated, "integrations", found.found.integrations);
+    json.members("seconds", found.found.seconds).end_object();
     return json.text();
 }
 
@@ -342,56 +233,39 @@ SIVID_DECL std::string ranking_json(identification_problem const& about, ranking
                                     measurement_ranking const* measurements) {
     auto const& names = about.choice.unknown;
     json_writer json;
-    json.begin_object();
-    json.key("format").string("sivid-ranking-1");
-    json.key("dataset").string(options.dataset);
-    json.key("scenario").string(options.scenario);
-    json.key("prior");
-    io_detail::write_box(json, names, about.prior);
-    json.key("assumptions").begin_array();
-    json.string(input_assumption(about.experiments)).end_array();
-    json.key("complete").boolean(found.complete);
-    json.key("channels").begin_array();
-    for (auto const& c : found.channels) {
-        json.begin_object();
-        json.key("experiment").string(about.experiments[c.experiment].name);
-        json.key("channel").string(about.model.about.channels[c.channel].name);
-        json.key("effects").begin_array();
-        for (auto const j : c.order()) {
+    auto const& model = about.model.about;
+    json.begin_object().members("format", "sivid-ranking-1", "dataset", options.dataset);
+    json.members("scenario", options.scenario).named("prior", names, about.prior);
+    json.members("assumptions", std::array{input_assumption(about.experiments)});
+    json.members("complete", found.complete);
+    json.list("channels", found.channels, [&](channel_effects const& c) {
+        json.begin_object().members("experiment", about.experiments[c.experiment].name);
+        json.members("channel", model.channels[c.channel].name);
+        json.list("effects", c.order(), [&](std::size_t const j) {
             auto const& e = c.effects[j];
             auto const place = c.place_of(j);
-            json.begin_object(json_writer::layout::one_line);
-            json.key("parameter").string(names[j]);
-            json.key("acts").boolean(e.acts).key("effect");
-            io_detail::write_bounds(json, e.low, e.high);
-            json.key("place").begin_array().integer(place.best).integer(place.worst).end_array();
+            json.begin_object(json_writer::layout::one_line).members("parameter", names[j]);
+            json.members("acts", e.acts).key("effect").bounds(e.low, e.high);
+            json.members("place", std::array{place.best, place.worst});
             if (e.low > 0) {
-                json.key("time").nearest(e.time).key("from").nearest(e.from);
-                json.key("to").nearest(e.to).key("at").begin_object();
+                json.members("time", e.time, "from", e.from, "to", e.to).key("at").begin_object();
                 for (std::size_t i = 0; i < names.size(); ++i)
-                    if (i != j) json.key(names[i]).nearest(e.at[i]);
-                json.end_object().key("initial").begin_object();
-                for (std::size_t i = 0; i < e.start.size(); ++i)
-                    json.key(about.model.about.states[i].name).nearest(e.start[i]);
-                json.end_object();
+                    if (i != j) json.members(names[i], e.at[i]);
+                json.end_object().named("initial", model.states, e.start);
             }
             json.end_object();
-        }
-        json.end_array().end_object();
-    }
-    json.end_array();
-    json.key("only_in_products").begin_array(json_writer::layout::one_line);
-    for (auto const j : found.combinations.entangled) json.string(names[j]);
-    json.end_array().key("products").begin_array(json_writer::layout::one_line);
-    for (auto const& c : found.combinations.combinations) json.string(c.formula);
-    json.end_array();
+        });
+        json.end_object();
+    });
+    auto const& products = found.combinations;
+    json.list("only_in_products", products.entangled, [&](std::size_t j) { return names[j]; });
+    json.list("products", products.combinations, &combination::formula);
     if (measurements != nullptr) {
         json.key("measurements");
         io_detail::write_worth(json, about, *measurements);
     }
-    json.key("parts").integer(found.parts);
-    json.key("integrations").integer(found.integrations);
-    json.key("seconds").nearest(found.seconds).end_object();
+    json.members("parts", found.parts, "integrations", found.integrations);
+    json.members("seconds", found.seconds).end_object();
     return json.text();
 }
 

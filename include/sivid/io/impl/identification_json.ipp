@@ -9,163 +9,113 @@ namespace sivid {
 SIVID_DECL std::string identification_json(identification_problem const& problem,
                                            identification const& found,
                                            identification_json_options const& options) {
-    using layout = json_writer::layout;
+    constexpr auto one_line = json_writer::layout::one_line;
     auto const& about = problem.model.about;
     auto const& names = problem.choice.unknown;
-    auto const unit_of = [&](std::string const& name) {
-        return about.constants[index_of(about.constants, name, "constant")].unit;
-    };
     json_writer json;
-    json.begin_object();
-    json.key("format").string("sivid-identification-1").key("dataset").string(options.dataset);
-    if (!options.source_digest.empty()) {
-        json.key("source").begin_object().key("folder").string(options.source_folder);
-        json.key("sha256").string(options.source_digest).end_object();
-    }
-    json.key("problem").string(problem_digest(problem));
-    if (!options.effects.empty()) {
-        json.key("effects").begin_array(layout::one_line);
-        for (auto const& name : options.effects) json.string(name);
-        json.end_array();
-    }
-    json.key("verdict").string(to_string(found.verdict));
+    json.begin_object().members("format", "sivid-identification-1", "dataset", options.dataset);
+    if (!options.source_digest.empty())
+        json.key("source").object("folder", options.source_folder, "sha256", options.source_digest);
+    json.members("problem", problem_digest(problem));
+    if (!options.effects.empty()) json.members("effects", options.effects);
     bool const inside = found.paving.count(box_verdict::inside) > 0 ||
                         share_of_whole(found.paving.inner_volume()).lower() > 0;
-    json.key("verdict_rests_on");
-    json.string(
-        to_string(grounds_for(found.witness.has_value(), inside, found.paving.has_outer())));
-    json.key("stop_reason").string(to_string(found.reason));
+    auto const grounds = grounds_for(found.witness.has_value(), inside, found.paving.has_outer());
+    json.members("verdict", to_string(found.verdict), "verdict_rests_on", to_string(grounds));
+    json.members("stop_reason", to_string(found.reason));
     if (found.windows) { // what contracted the prior before the search
         auto const& w = *found.windows;
-        json.key("windows").begin_object(layout::one_line).key("carried").integer(w.windows);
-        json.key("longest").nearest(w.longest).key("seconds").nearest(w.seconds);
-        json.key("left").nearest(w.left);
-        if (w.input_period > 0) json.key("input_period").nearest(w.input_period);
+        json.key("windows").begin_object(one_line).members("carried", w.windows);
+        json.members("longest", w.longest, "seconds", w.seconds, "left", w.left);
+        if (w.input_period > 0) json.members("input_period", w.input_period);
         json.end_object();
     }
     write_reach(json, found.reach);
     write_divisors(json, found.divisors);
     if (found.effort) { // what the reason follows from
         auto const& e = *found.effort;
-        json.key("search").begin_object(layout::one_line);
-        json.key("seconds").nearest(e.seconds).key("most_seconds").nearest(e.most_seconds);
-        json.key("boxes").integer(e.boxes).key("most_boxes").integer(e.most_boxes);
-        json.key("most_bytes");
-        if (e.most_bytes) {
-            json.integer(*e.most_bytes);
-        } else {
-            json.null();
-        }
-        if (e.sufficient_ratio) json.key("sufficient_ratio").nearest(*e.sufficient_ratio);
-        if (e.hull_gain) json.key("hull_gain").nearest(*e.hull_gain);
+        json.key("search").begin_object(one_line);
+        json.members("seconds", e.seconds, "most_seconds", e.most_seconds, "boxes", e.boxes);
+        json.members("most_boxes", e.most_boxes, "most_bytes", e.most_bytes);
+        if (e.sufficient_ratio) json.members("sufficient_ratio", *e.sufficient_ratio);
+        if (e.hull_gain) json.members("hull_gain", *e.hull_gain);
         json.end_object();
     }
-    json.key("enclosures").begin_object(layout::one_line); // of the search, for certificates.csv
-    json.key("set").string(found.run.set == carried_set::taylor_model ? "taylor-model"
-                                                                      : "first-order");
-    if (found.run.enclosure.method) {
-        json.key("method").string(found.run.enclosure.method->name);
-    }
-    json.key("order").integer(found.run.enclosure.order);
-    json.key("tolerance").nearest(found.run.enclosure.tolerance);
-    json.key("relative_tolerance").nearest(found.run.enclosure.relative_tolerance);
-    json.key("minimum_step").nearest(found.run.enclosure.minimum_step).end_object();
+    auto const& enclosure = found.run.enclosure; // of the search, for certificates.csv
+    bool const taylor = found.run.set == carried_set::taylor_model;
+    json.key("enclosures").begin_object(one_line);
+    json.members("set", taylor ? "taylor-model" : "first-order");
+    if (enclosure.method) json.members("method", enclosure.method->name);
+    json.members("order", enclosure.order, "tolerance", enclosure.tolerance);
+    json.members("relative_tolerance", enclosure.relative_tolerance);
+    json.members("minimum_step", enclosure.minimum_step).end_object();
     json.key("files").begin_object();
-    json.key("boxes.csv").string(sha256(boxes_csv(problem, found)));
-    if (found.products) json.key("products.csv").string(sha256(products_csv(found)));
+    json.members("boxes.csv", sha256(boxes_csv(problem, found)));
+    if (found.products) json.members("products.csv", sha256(products_csv(found)));
     json.end_object();
 
     json.key("parameters").begin_object();
     for (std::size_t j = 0; j < names.size(); ++j) {
-        json.key(names[j]).begin_object(layout::one_line).key("hull").bounds(found.hull[j]);
-        json.key("unit").string(unit_of(names[j])).end_object();
+        auto const& constant = about.constants[index_of(about.constants, names[j], "constant")];
+        json.key(names[j]).object("hull", found.hull[j], "unit", constant.unit);
     }
-    json.end_object();
-    json.key("combinations").begin_array();
-    for (auto const& c : found.combinations) {
-        json.begin_object(layout::one_line).key("formula").string(c.what.formula);
-        json.key("hull").bounds(c.hull).key("unit").string(c.what.unit).end_object();
-    }
-    json.end_array();
-
-    json.key("volume").begin_object(layout::one_line);
-    json.key("inner").bounds(share_of_whole(found.paving.inner_volume()));
-    json.key("outer").bounds(share_of_whole(found.paving.outer_volume()));
-    json.key("of").string(found.volumes == volume_source::boxes ? "boxes" : "products");
-    json.end_object();
-
-    json.key("rows").begin_object(layout::one_line); // of boxes.csv
-    for (auto const v : {box_verdict::inside, box_verdict::undecided, box_verdict::pending})
-        json.key(to_string(v)).integer(found.paving.count(v));
-    json.end_object();
-
-    if (found.products) { // in products.csv
-        json.key("products").begin_object().key("sides").begin_array(layout::one_line);
-        for (auto const& name : found.products->map.side_names()) json.string(name);
-        json.end_array().key("rows").begin_object(layout::one_line);
+    json.end_object().list("combinations", found.combinations, [&](combination_hull const& c) {
+        json.object("formula", c.what.formula, "hull", c.hull, "unit", c.what.unit);
+    });
+    json.key("volume").object("inner", share_of_whole(found.paving.inner_volume()), "outer",
+                              share_of_whole(found.paving.outer_volume()), "of",
+                              found.volumes == volume_source::boxes ? "boxes" : "products");
+    auto const rows = [&](auto const& paving) {
+        json.key("rows").begin_object(one_line);
         for (auto const v : {box_verdict::inside, box_verdict::undecided, box_verdict::pending})
-            json.key(to_string(v)).integer(found.products->paving.count(v));
-        json.end_object().end_object();
+            json.members(to_string(v), paving.count(v));
+        json.end_object();
+    };
+    rows(found.paving);   // of boxes.csv
+    if (found.products) { // in products.csv
+        json.key("products").begin_object().members("sides", found.products->map.side_names());
+        rows(found.products->paving);
+        json.end_object();
     }
 
-    json.key("witness");
-    if (found.witness) {
-        json.begin_object().key("parameters").begin_object(layout::one_line);
-        for (std::size_t j = 0; j < names.size(); ++j) {
-            json.key(names[j]).nearest(found.witness->parameters[j]);
-        }
-        json.end_object().key("initial").begin_object();
-        for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
-            json.key(problem.experiments[s].name).begin_object(layout::one_line);
-            for (std::size_t i = 0; i < about.states.size(); ++i) {
-                json.key(about.states[i].name).nearest(found.witness->starts[s][i]);
-            }
-            json.end_object();
-        }
+    json.maybe("witness", found.witness, [&](auto const& w) {
+        json.begin_object().named("parameters", names, w.parameters).key("initial").begin_object();
+        for (std::size_t s = 0; s < problem.experiments.size(); ++s)
+            json.named(problem.experiments[s].name, about.states, w.starts[s]);
         json.end_object().end_object();
-    } else {
-        json.null();
-    }
+    });
 
-    json.key("assumptions").begin_array();
-    for (auto const& a : found.assumptions) json.string(a);
-    for (auto const& a : options.further_assumptions) json.string(a);
-    json.end_array();
+    auto assumptions = found.assumptions;
+    for (auto const& a : options.further_assumptions) assumptions.push_back(a);
+    json.members("assumptions", assumptions);
 
-    json.key("outliers").begin_object().key("budget").begin_object(layout::one_line);
-    for (auto const& s : problem.experiments) json.key(s.name).integer(s.outliers);
-    json.end_object();
+    json.key("outliers").begin_object();
+    json.named("budget", problem.experiments, &experiment::outliers);
     if (found.fewest) {
         auto const write = [&](std::string const& key, proved_count const& c) {
-            json.key(key).begin_object(layout::one_line).key("least").integer(c.least);
-            json.key("most").integer(c.most).end_object();
+            json.key(key).object("least", c.least, "most", c.most);
         };
         json.key("fewest").begin_object();
         write("total", found.fewest->total);
         json.key("alone").begin_object();
-        for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
+        for (std::size_t s = 0; s < problem.experiments.size(); ++s)
             write(problem.experiments[s].name, found.fewest->alone[s]);
-        }
         json.end_object().end_object();
     }
-    json.key("forced").begin_array();
-    for (auto const& f : found.forced) {
+    json.list("forced", found.forced, [&](auto const& f) {
         auto const samples = sorted(problem.experiments[f.experiment].measurements);
         auto const& m = samples[f.measurement];
-        json.begin_object(layout::one_line);
-        json.key("scenario").string(problem.experiments[f.experiment].name);
-        json.key("t").nearest(m.time);
-        json.key("channel").string(about.channels[m.channel].name).end_object();
-    }
-    json.end_array().end_object();
+        json.object("scenario", problem.experiments[f.experiment].name, "t", m.time, "channel",
+                    about.channels[m.channel].name);
+    });
+    json.end_object();
 
     if (options.identifiability != nullptr) {
         json.key("identifiability");
         write_identifiability(json, *options.identifiability);
     }
-
-    json.key("boxes").integer(found.boxes).key("integrations").integer(found.integrations);
-    json.key("seconds").nearest(found.seconds).end_object();
+    json.members("boxes", found.boxes, "integrations", found.integrations);
+    json.members("seconds", found.seconds).end_object();
     return json.text();
 }
 

@@ -10,6 +10,7 @@
 #include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -160,48 +161,37 @@ SIVID_DECL scenario_description parse_scenario(std::string const& name, std::str
 SIVID_DECL std::string scenario_json(scenario_description const& s, model_names const& model) {
     using kind = input_shape::kind;
     json_writer json;
-    json.begin_object().key("format").string("sivid-scenario-1").key("name").string(s.name);
-    json.key("about").string(s.about).key("duration").nearest(s.duration);
-    json.key("initial").begin_object();
+    json.begin_object().members("format", "sivid-scenario-1", "name", s.name, "about", s.about);
+    json.members("duration", s.duration).key("initial").begin_object();
     for (std::size_t i = 0; i < model.states.size(); ++i) {
         auto const& start = s.initial[i];
         json.key(model.states[i].name);
         if (start.lower == start.upper) {
-            json.decimal(start.lower);
+            json.value(start.lower);
         } else {
-            json.begin_array(json_writer::layout::one_line);
-            json.decimal(start.lower).decimal(start.upper).end_array();
+            json.value(std::array{start.lower, start.upper});
         }
     }
     json.end_object().key("inputs").begin_object();
-    auto const list = [&](char const* name, std::vector<double> const& values) {
-        json.key(name).begin_array(json_writer::layout::one_line);
-        for (double const v : values) json.nearest(v);
-        json.end_array();
-    };
     for (std::size_t i = 0; i < model.inputs.size(); ++i) {
         auto const& u = s.inputs[i];
-        json.key(model.inputs[i].name).begin_object().key("shape");
+        json.key(model.inputs[i].name);
         switch (u.shape) {
         case kind::constant:
-            json.string("constant").key("value").nearest(u.offset);
+            json.object("shape", "constant", "value", u.offset);
             break;
         case kind::sine:
-            json.string("sine").key("offset").nearest(u.offset);
-            json.key("amplitude").nearest(u.amplitude).key("frequency").nearest(u.frequency);
-            json.key("phase").nearest(u.phase);
+            json.object("shape", "sine", "offset", u.offset, "amplitude", u.amplitude, "frequency",
+                        u.frequency, "phase", u.phase);
             break;
         case kind::ramp:
-            json.string("ramp").key("from").nearest(u.from).key("to").nearest(u.to);
-            json.key("begin").nearest(u.begin).key("end").nearest(u.end);
+            json.object("shape", "ramp", "from", u.from, "to", u.to, "begin", u.begin, "end",
+                        u.end);
             break;
         case kind::samples:
-            json.string("samples");
-            list("t", u.times);
-            list("values", u.values);
+            json.object("shape", "samples", "t", u.times, "values", u.values);
             break;
         }
-        json.end_object();
     }
     json.end_object().end_object();
     return json.text();

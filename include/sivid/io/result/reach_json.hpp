@@ -14,36 +14,25 @@ namespace sivid {
 /// nobody looked.
 inline void write_reach(json_writer& json, std::vector<run_reach> const& reach) {
     if (reach.empty()) return;
-    json.key("reach").begin_array();
-    for (auto const& r : reach) {
-        json.begin_object(json_writer::layout::one_line);
-        json.key("scenario").string(r.scenario);
-        json.key("until").nearest(r.until).key("end").nearest(r.end);
-        json.key("state").string(r.state);
-        json.key("width").nearest(r.width).key("by").begin_object();
-        for (auto const& c : r.causes)
-            json.key((c.start ? "start of " : "") + c.name).nearest(c.share);
-        json.end_object();
-        json.key("moved").nearest(r.moved).key("spread").nearest(r.spread);
-        json.key("lost").nearest(r.lost).key("interrupted").boolean(r.interrupted).end_object();
-    }
-    json.end_array();
+    json.list("reach", reach, [&](run_reach const& r) {
+        json.begin_object(json_writer::layout::one_line).members("scenario", r.scenario);
+        json.members("until", r.until, "end", r.end, "state", r.state, "width", r.width);
+        json.key("by").begin_object();
+        for (auto const& c : r.causes) json.members((c.start ? "start of " : "") + c.name, c.share);
+        json.end_object().members("moved", r.moved, "spread", r.spread, "lost", r.lost);
+        json.members("interrupted", r.interrupted).end_object();
+    });
 }
 
 /// "divisors": what the equations divide by that is, or may be, zero; nothing where there is none.
 inline void write_divisors(json_writer& json, std::vector<divisor> const& divisors) {
     if (divisors.empty()) return;
-    json.key("divisors").begin_array();
-    for (auto const& d : divisors) {
-        json.begin_object(json_writer::layout::one_line);
-        json.key("formula").string(d.formula).key("equations").begin_array();
-        for (auto const& e : d.equations) json.string(e);
-        json.end_array().key("zeros").string(d.zeros == zeros::some ? "some" : "unknown");
-        json.key("near").begin_object();
-        for (auto const& [name, value] : d.near) json.key(name).nearest(value);
-        json.end_object().end_object();
-    }
-    json.end_array();
+    json.list("divisors", divisors, [&](divisor const& d) {
+        json.begin_object(json_writer::layout::one_line).members("formula", d.formula);
+        json.members("equations", d.equations);
+        json.members("zeros", d.zeros == zeros::some ? "some" : "unknown");
+        json.named("near", d.near).end_object();
+    });
 }
 
 } // namespace sivid

@@ -37,6 +37,9 @@ public:
     /// The shortest decimal that reads back as `value` (zero for what is not finite).
     [[nodiscard]] static exact_decimal shortest(double value);
 
+    /// The decimal that the finite `value` is: all of its digits, 767 at most.
+    [[nodiscard]] static exact_decimal of(double value);
+
     /// `value` rounded to so many digits after the point.
     /// @given  a magnitude below 1e300 and places <= 300 (trusted)
     [[nodiscard]] static exact_decimal rounded(double value, int places);

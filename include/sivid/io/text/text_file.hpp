@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -29,12 +28,6 @@ inline constexpr std::uintmax_t largest_text = 1'000'000'000; ///< [byte]
 /// The whole of a regular file, without its UTF-8 byte-order mark.
 /// @throws input_error when there is no such file, or it is too large or cannot be read
 [[nodiscard]] SIVID_DECL std::string read_text(std::filesystem::path const& file);
-
-/// Writes a file whole or not at all: into a temporary neighbour, which then takes the name. A
-/// reader, or a run that was killed, sees the old content or the new one.
-/// @throws output_error when the folder or the file cannot be written; the old content is then
-/// still there
-SIVID_DECL void write_atomically(std::filesystem::path const& file, std::string_view text);
 
 /// The path of a file that a data set names, made safe: relative, and inside the folder even when
 /// links are followed.

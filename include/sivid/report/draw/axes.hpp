@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_DRAW_AXES_HPP
 #define SIVID_REPORT_DRAW_AXES_HPP
 
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/report/draw/svg.hpp>
 #include <sivid/report/draw/ticks.hpp>
 #include <sivid/report/number_text.hpp>
@@ -117,8 +118,9 @@ public:
 
 private:
     static void place(svg& out, std::string const& name, axis const& a, double from, double to) {
-        out.data(name, coordinate(from) + ' ' + coordinate(to) + ' ' + machine_number(a.bounds.lo) +
-                           ' ' + machine_number(a.bounds.hi));
+        out.data(name, coordinate(from) + ' ' + coordinate(to) + ' ' +
+                           sivid::nearest_text(a.bounds.lo) + ' ' +
+                           sivid::nearest_text(a.bounds.hi));
         out.data(name + "-name", a.label).data(name + "-unit", unit_text(a.unit));
     }
     static double share(double value, range const& r) {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace sivid::report {
@@ -20,7 +19,6 @@ namespace sivid::report {
 struct bar {
     std::string label{};
     range value{};
-    std::string_view colour = palette::blue;
     std::string note{}; ///< shown after the numbers
 };
 

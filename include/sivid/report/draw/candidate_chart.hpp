@@ -3,6 +3,7 @@
 #define SIVID_REPORT_DRAW_CANDIDATE_CHART_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/report/draw/legend.hpp>
 #include <sivid/report/draw/ticks.hpp>
 #include <sivid/report/number_text.hpp>
@@ -16,16 +17,10 @@
 
 namespace sivid::report {
 
-enum class candidate_state {
-    explains, ///< proved
-    excluded, ///< proved
-    open
-};
-
 /// One row: what is left of the gap after the candidate is joined.
 struct candidate_bar {
     std::string label{};
-    candidate_state state = candidate_state::open;
+    cause_verdict state = cause_verdict::undecided;
     range proved{};    ///< of the inflation; empty or [0, infinity): nothing proved
     double fitted = 0; ///< of the best fit found, not proved; unless positive and finite: no fit
     bool answer = false;
@@ -36,8 +31,8 @@ struct candidate_chart_options {
     std::string title{};
 };
 
-[[nodiscard]] SIVID_DECL std::string_view state_sign(candidate_state s);
-[[nodiscard]] SIVID_DECL std::string_view state_words(candidate_state s);
+[[nodiscard]] SIVID_DECL std::string_view state_sign(cause_verdict s);
+[[nodiscard]] SIVID_DECL std::string_view state_words(cause_verdict s);
 
 /// True for a positive finite number: that of a fit.
 [[nodiscard]] SIVID_DECL bool is_fitted(double inflation);
@@ -105,9 +100,6 @@ private:
     bool logarithmic_ = false;
     double low_ = 0, high_ = 1;
 };
-
-SIVID_DECL std::string_view state_colour(candidate_state s);
-SIVID_DECL std::string_view state_ink(candidate_state s);
 
 } // namespace detail
 

@@ -53,8 +53,7 @@ SIVID_DECL range value_range(channel_series const& c);
 
 SIVID_DECL range time_range(channel_series const& c);
 
-SIVID_DECL std::string sample_tip(channel_series const& c, measured_sample const& m,
-                                  std::string_view time_unit);
+SIVID_DECL std::string sample_tip(channel_series const& c, measured_sample const& m);
 
 } // namespace detail
 

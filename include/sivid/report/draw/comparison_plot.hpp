@@ -32,8 +32,6 @@ namespace detail {
 /// worse line may stretch it a little.
 SIVID_DECL channel_series plain_series(comparison_series const& c);
 
-SIVID_DECL double median_spacing(std::vector<point> const& all);
-
 } // namespace detail
 
 /// The legend of comparison plots, with what is in any of them.

@@ -25,22 +25,13 @@ struct heat_map {
 struct heat_map_options {
     double width = 740;
     std::string title{};
-    std::string time_unit = "s";
-    std::size_t most_columns = 300; ///< more are joined, each keeps its largest value
     double largest = 0; ///< the colours' end is not below it: lets maps share their colours
     bool key = true;    ///< draw the colour bar
 };
 
-namespace detail {
-
-/// Joins neighbouring columns, keeping the largest value, until at most `most` are left.
-SIVID_DECL heat_map joined(heat_map m, std::size_t most);
-
-} // namespace detail
-
 /// Channels against time in colour: blue up to the threshold, orange with a cross above it, hatched
 /// where nothing is known; with a colour bar.
-[[nodiscard]] SIVID_DECL svg draw_heat_map(heat_map const& data, heat_map_options const& o = {});
+[[nodiscard]] SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o = {});
 
 } // namespace sivid::report
 

@@ -37,10 +37,6 @@ namespace detail {
 /// it by at most its own width on each side; always with zero.
 SIVID_DECL range rate_range(missing_rate_series const& s);
 
-SIVID_DECL range rate_times(missing_rate_series const& s);
-
-SIVID_DECL void draw_rate_band(svg& out, axes const& a, std::vector<rate_sample> const& all);
-
 } // namespace detail
 
 [[nodiscard]] SIVID_DECL std::vector<legend_entry>

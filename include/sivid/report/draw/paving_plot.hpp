@@ -3,6 +3,7 @@
 #define SIVID_REPORT_DRAW_PAVING_PLOT_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/report/draw/axes.hpp>
 #include <sivid/report/draw/detail/paving_raster.hpp>
 #include <sivid/report/draw/legend.hpp>
@@ -33,7 +34,6 @@ struct paving_plot_options {
     range x_window{}; ///< empty: the prior
     range y_window{};
     bool mark_zoom = false;           ///< outline the window of `zoom_window`
-    bool legend = false;              ///< draw the legend below (for a picture that stands alone)
     std::size_t finest = 640;         ///< cells a side before the text limit
     std::size_t most_bytes = 150'000; ///< of the regions' outlines; coarser cells until it is met
 };

@@ -42,8 +42,6 @@ struct plane_plot_options {
     double width = 740;
     double height = 300;
     std::string title{};
-    bool equal_aspect = true;
-    std::size_t most_boxes = 4000; ///< more are joined two by two, which only enlarges them
 };
 
 [[nodiscard]] SIVID_DECL std::vector<legend_entry> plane_plot_legend(plane_series const& s);
@@ -53,12 +51,11 @@ namespace detail {
 /// Joins neighbours by their hull until at most `most` boxes are left.
 SIVID_DECL std::vector<plane_box> joined(std::vector<plane_box> boxes, std::size_t most);
 
-SIVID_DECL void add_box(path_data& d, axes const& a, plane_box const& b, double least);
-
 } // namespace detail
 
 /// A motion seen from above: the proven boxes step by step, the measured positions and a
-/// reference line that is not validated; equal scales on both axes by default.
+/// reference line that is not validated; equal scales on both axes. Beyond some thousand boxes
+/// neighbours are joined, which only enlarges them.
 [[nodiscard]] SIVID_DECL svg draw_plane_plot(plane_series const& s,
                                              plane_plot_options const& o = {});
 

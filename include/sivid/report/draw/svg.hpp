@@ -19,9 +19,6 @@ namespace sivid::report {
 /// A coordinate as text, rounded to 0.01 units: never NaN or infinite, at most 1e6 in size.
 [[nodiscard]] SIVID_DECL std::string coordinate(double value);
 
-/// The shortest decimal that reads back as the same double, for a program.
-[[nodiscard]] SIVID_DECL std::string machine_number(double value);
-
 /// A data-`name` attribute.
 struct attribute_text {
     std::string name{};
@@ -44,7 +41,6 @@ struct text_style {
     anchor align = anchor::start;
     std::string_view fill = palette::ink;
     bool bold = false;
-    bool italic = false;
     double rotate = 0; ///< degrees, about the text's own point
 };
 

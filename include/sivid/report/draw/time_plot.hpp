@@ -19,7 +19,6 @@ struct time_plot_options {
     double width = 360;
     double height = 230;
     std::string title{};
-    std::string time_unit = "s";
     range time{};                   ///< empty: what the data need
     bool legend = false;            ///< draw the legend below (for a picture that stands alone)
     std::size_t most_samples = 400; ///< more are thinned evenly; outliers are always drawn
@@ -50,6 +49,18 @@ SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, 
 /// @cost  O(samples + pieces); the text grows with neither beyond a few hundred marks
 [[nodiscard]] SIVID_DECL svg draw_time_plot(channel_series const& c,
                                             time_plot_options const& o = {});
+
+/// True when a sample can be compared with the model: both intervals finite, the bound above zero.
+[[nodiscard]] SIVID_DECL bool has_residual(measured_sample const& m);
+
+/// The model's enclosure in units of the measurement's own bound, for drawing:
+///   \f$ (\text{enclosure} - \text{mid}) / \text{rad} \f$; inside [-1, 1] the sample is met.
+[[nodiscard]] SIVID_DECL range approximate_residual(measured_sample const& m);
+
+/// Where the model's enclosure lies within each measured interval: 0 is its middle, +-1 its ends.
+/// What a time plot hides in a line as thin as a pixel is seen here.
+[[nodiscard]] SIVID_DECL svg draw_residual_plot(channel_series const& c,
+                                                time_plot_options const& o = {});
 
 } // namespace sivid::report
 

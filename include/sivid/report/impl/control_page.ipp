@@ -35,8 +35,8 @@ inline void add_gains(page& out, gain_set const& found) {
     named_paving named{&paving, {}, {}, found.suggested.value_or(std::vector<double>{})};
     auto const hull = paving.outer_hull();
     for (std::size_t k = 0; k < found.names.size(); ++k) {
-        named.sides.push_back({found.names[k], "", range_of(paving.prior()[k])});
-        named.hull.push_back(range_of(hull[k]));
+        named.sides.push_back({found.names[k], "", paving.prior()[k]});
+        named.hull.push_back(hull[k]);
     }
     auto const pairs = projections(named, {}, 6);
     if (!pairs.empty()) {
@@ -93,7 +93,7 @@ SIVID_DECL std::string gain_sentence(gain_set const& found) {
     if (found.suggested) text += detail::named(found.names, *found.suggested);
     std::string around;
     for (std::size_t k = 0; k < found.tolerance.size(); ++k) {
-        auto const side = inward_text(detail::range_of(found.tolerance[k]));
+        auto const side = inward_text(found.tolerance[k]);
         around += (k == 0 ? ", all around with " : ", ") + found.names[k] + " in " +
                   side.value_or("no range of a few digits");
     }

@@ -13,7 +13,8 @@
 #include <sivid/report/page/detail/advice.hpp>
 #include <sivid/report/page/detail/diagnosis_figures.hpp>
 #include <sivid/report/page/detail/diagnosis_tables.hpp>
-#include <sivid/report/page/detail/holdout_tables.hpp>
+#include <sivid/report/page/detail/identification_parameters.hpp>
+#include <sivid/version.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -26,8 +27,8 @@ namespace sivid::report {
 namespace detail {
 
 inline void add_places(page& out, diagnosis_view const& v) {
-    if (v.places.empty() && v.relations.empty() && v.confined.empty() && v.scenario_gaps.empty() &&
-        v.channel_gaps.empty()) {
+    if (v.where.empty() && v.relations.empty() && v.confined.empty() &&
+        v.scenario_inflation.empty() && v.channel_inflation.empty()) {
         return;
     }
     out.section("Where model and robot disagree");
@@ -51,14 +52,14 @@ inline void add_places(page& out, diagnosis_view const& v) {
         for (auto const& c : v.confined) lines.push_back(capitalised(confined_clause(c)) + ".");
         out.bullets(lines);
     }
-    if (!v.scenario_gaps.empty() || !v.channel_gaps.empty()) {
+    if (!v.scenario_inflation.empty() || !v.channel_inflation.empty()) {
         out.subsection("Scenario by scenario, channel by channel");
         out.add(gap_shares_table(v));
     }
 }
 
 inline void add_candidates(page& out, diagnosis_view const& v) {
-    if (v.candidates.empty()) return;
+    if (v.causes.empty()) return;
     out.section("Which effect it is");
     out.add(candidate_figure(v));
     table const t = causes_table(v);
@@ -73,7 +74,7 @@ inline void add_candidates(page& out, diagnosis_view const& v) {
 inline void add_constants(page& out, diagnosis_view const& v) {
     table const t = constants_table(v);
     if (t.rows.empty()) return;
-    candidate_view const* const c = answer_of(v);
+    cause const* const c = answer_of(v);
     out.section("All constants of the model" +
                 (c != nullptr ? " with " + names_of(c->effects) : std::string{}));
     out.add(t);
@@ -84,23 +85,23 @@ inline void add_remainder(page& out, diagnosis_view const& v) {
     out.section("What stays unexplained");
     out.prose(capitalised(remainder_clause(v)) + ".");
     std::vector<std::string> lines;
-    for (place_view const& p : v.remainder->places) {
+    for (suspected_place const& p : v.remainder->where) {
         lines.push_back(capitalised(place_clause(p)) + ".");
     }
     if (!v.remainder->effects.empty()) out.bullets(lines);
-    for (figure const& f : missing_rate_figures(v.remainder->missing_rates,
-                                                "with " + names_of(v.remainder->effects))) {
+    for (figure const& f :
+         missing_rate_figures(v.plots.remaining_rates, "with " + names_of(v.remainder->effects))) {
         out.add(f);
     }
 }
 
 inline void add_motions(page& out, diagnosis_view const& v, bool holdout) {
     std::vector<comparison_series> all;
-    for (compared_scenario const& s : v.scenarios) {
+    for (compared_scenario const& s : v.plots.scenarios) {
         if (s.holdout == holdout) all.insert(all.end(), s.channels.begin(), s.channels.end());
     }
     auto legend = comparison_legend(all, after_words(v)); // once, for all that follow
-    for (compared_scenario const& s : v.scenarios) {
+    for (compared_scenario const& s : v.plots.scenarios) {
         if (s.holdout != holdout || s.channels.empty()) continue;
         figure f = motion_figure(s);
         f.legend = std::exchange(legend, {});
@@ -111,13 +112,13 @@ inline void add_motions(page& out, diagnosis_view const& v, bool holdout) {
 
 inline void add_comparison(page& out, diagnosis_view const& v) {
     auto const any = [&](bool holdout) {
-        return std::any_of(v.scenarios.begin(), v.scenarios.end(), [&](compared_scenario const& s) {
-            return s.holdout == holdout && !s.channels.empty();
-        });
+        return std::any_of(v.plots.scenarios.begin(), v.plots.scenarios.end(),
+                           [&](compared_scenario const& s) {
+                               return s.holdout == holdout && !s.channels.empty();
+                           });
     };
-    candidate_view const* const c = answer_of(v);
-    table const t =
-        c != nullptr && c->holdout ? holdout_table(*c->holdout, v.shrink_holdout) : table{};
+    cause const* const c = answer_of(v);
+    table const t = c != nullptr && c->holdout ? holdout_table(v, *c->holdout) : table{};
     if (any(true) || !t.rows.empty()) {
         out.section("On the held-out data");
         out.add(t);
@@ -128,7 +129,7 @@ inline void add_comparison(page& out, diagnosis_view const& v) {
     }
     if (any(false)) {
         out.section("On the data used for fitting");
-        if (v.answer == answer_state::effects && says_shrink(v.shrink_fit)) {
+        if (v.answer == answer_kind::effects && says_shrink(v.shrink_fit)) {
             out.prose(capitalised(shrink_clause(v.shrink_fit, "these data")) + ".");
         }
         add_motions(out, v, false);
@@ -138,20 +139,10 @@ inline void add_comparison(page& out, diagnosis_view const& v) {
 inline void add_basis(page& out, diagnosis_view const& v) {
     out.section("What this rests on");
     out.assumptions(v.assumptions);
-    candidate_view const* const c = answer_of(v);
+    cause const* const c = answer_of(v);
     if (c != nullptr) {
         out.assumptions(c->assumptions, "Further, for " + names_of(c->effects));
-        if (c->witness) {
-            out.subsection("The witness");
-            out.prose("One point that was verified by validated integration: " +
-                      values_text(c->witness->parameters) + ".");
-            std::vector<std::string> starts;
-            for (witness_view::start const& s : c->witness->initial) {
-                starts.push_back("Scenario " + s.scenario + " starts at " + values_text(s.state) +
-                                 ".");
-            }
-            out.bullets(starts);
-        }
+        if (c->witness) add_witness(out, *c->witness);
     }
     out.subsection("How to read it");
     out.prose(
@@ -160,8 +151,8 @@ inline void add_basis(page& out, diagnosis_view const& v) {
         "found; likely, not certain. Gap removed: 1 \xE2\x88\x92 (after \xE2\x88\x92 1) / "
         "(before \xE2\x88\x92 1), of the factors by which the bounds must grow.");
     out.prose((v.seconds > 0 ? "The run took " + duration_text(v.seconds) + ". " : std::string{}) +
-              (v.command.empty() ? "" : "Command: " + v.command + ". ") +
-              (v.machine.empty() ? "" : "Machine: " + v.machine + "."));
+              (v.about.command.empty() ? "" : "Command: " + v.about.command + ". ") +
+              (v.about.machine.empty() ? "" : "Machine: " + v.about.machine + "."));
 }
 
 } // namespace detail
@@ -169,21 +160,21 @@ inline void add_basis(page& out, diagnosis_view const& v) {
 SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     page out{
         {.kind = "Diagnosis of the gap between model and robot",
-         .title = v.dataset,
-         .lead = v.model.empty()
+         .title = v.about.dataset,
+         .lead = v.about.model.empty()
                      ? ""
-                     : "Where the model \xE2\x80\x9C" + v.model +
+                     : "Where the model \xE2\x80\x9C" + v.about.model +
                            "\xE2\x80\x9D and the robot disagree, which effect it is, and how far "
                            "the gap shrinks once it is added."}};
     out.banner(banner_outcome(v), headline(v), banner_sentence(v));
     out.cards(diagnosis_cards(v));
-    auto warnings = v.warnings;
+    auto warnings = v.about.warnings;
     if (v.interrupted) {
         warnings.insert(warnings.begin(),
                         "The run was stopped early. What is called proved stands; "
                         "the rest may be incomplete.");
     }
-    for (end_view const& e : v.at_ends) warnings.push_back(end_words(e) + ".");
+    for (constant_at_end const& e : v.at_ends) warnings.push_back(end_words(e) + ".");
     out.warnings(warnings);
     out.add(summary_table(v));
     if (!v.why.empty()) {
@@ -196,7 +187,7 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     figure const misfits = misfit_figure(v);
     if (!misfits.panels.empty()) out.subsection("How far each channel misses its bounds");
     out.add(misfits);
-    auto const missing = missing_rate_figures(v.missing_rates);
+    auto const missing = missing_rate_figures(v.plots.missing_rates);
     if (!missing.empty()) out.section("What is missing, over time");
     for (figure const& f : missing) out.add(f);
     detail::add_candidates(out, v);
@@ -205,7 +196,7 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     detail::add_comparison(out, v);
     add_advice(out, v);
     detail::add_basis(out, v);
-    out.footer({v.version, v.date});
+    out.footer({"sivid " + std::string{version}, v.about.date});
     return out;
 }
 

@@ -10,12 +10,12 @@ namespace sivid::report {
 
 namespace detail {
 
-SIVID_DECL std::string nearest_text(double x) {
+inline std::string nearest_text(double x) {
     return rounded_text(x, rounding::nearest, {.significant = 2});
 }
 
-SIVID_DECL std::string motion_text(free_motion const& m,
-                                   std::vector<unknown_quantity> const& names) {
+/// "L * k, Sg / k" or "a + s, b - 2 s": what may move together.
+inline std::string motion_text(free_motion const& m, std::vector<unknown_quantity> const& names) {
     bool const scales = m.kind == motion_kind::scaling;
     std::string text;
     for (std::size_t c = 0; c < m.weights.size(); ++c) {
@@ -30,8 +30,9 @@ SIVID_DECL std::string motion_text(free_motion const& m,
     return text;
 }
 
-SIVID_DECL std::string direction_text(sensitive_direction const& d,
-                                      std::vector<unknown_quantity> const& names) {
+/// The components that matter, largest first: "L +1, Sg -0.12".
+inline std::string direction_text(sensitive_direction const& d,
+                                  std::vector<unknown_quantity> const& names) {
     std::vector<std::size_t> order;
     for (std::size_t c = 0; c < d.components.size(); ++c) {
         if (std::abs(d.components[c]) >= 0.05) order.push_back(c);

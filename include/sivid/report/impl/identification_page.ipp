@@ -7,7 +7,6 @@
 #include <sivid/report/identification_page.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/draw/residual_plot.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/page/detail/identification_parameters.hpp>
@@ -211,20 +210,6 @@ inline void add_identifiability(page& out, identification_view const& v) {
     out.bullets(v.identifiability);
 }
 
-inline void add_witness(page& out, identification_view const& v) {
-    if (!v.witness) {
-        return;
-    }
-    out.subsection("The witness");
-    out.prose(std::string{"One point that was verified by validated integration: "} +
-              values_text(v.witness->parameters) + ".");
-    std::vector<std::string> starts;
-    for (witness_view::start const& s : v.witness->initial) {
-        starts.push_back("Scenario " + s.scenario + " starts at " + values_text(s.state) + ".");
-    }
-    out.bullets(starts);
-}
-
 } // namespace detail
 
 SIVID_DECL page identification_page(identification_view const& v) {
@@ -256,7 +241,7 @@ SIVID_DECL page identification_page(identification_view const& v) {
     }
     detail::add_outliers(out, v);
     detail::add_computation(out, v);
-    detail::add_witness(out, v);
+    if (v.witness) detail::add_witness(out, *v.witness);
     out.footer({v.version, v.date, v.machine, v.command});
     return out;
 }

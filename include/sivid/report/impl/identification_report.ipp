@@ -9,7 +9,7 @@ namespace sivid::report {
 namespace detail {
 
 SIVID_DECL range shown_share(interval const& volume) {
-    range const r = shown(share_of_whole(volume));
+    range const r = share_of_whole(volume);
     double const more = 5e-4 * r.hi;
     return r.lo == r.hi || r.hi - r.lo > more
                ? r

@@ -6,9 +6,9 @@
 
 namespace sivid::report {
 
-SIVID_DECL std::string values_text(std::vector<named_value> const& all) {
+SIVID_DECL std::string values_text(std::vector<named_estimate> const& all) {
     std::string out;
-    for (named_value const& v : all) {
+    for (named_estimate const& v : all) {
         out += (out.empty() ? std::string{} : std::string{", "}) + v.name + " = " +
                given_text(v.value) + unit_suffix(v.unit);
     }

@@ -8,11 +8,12 @@ namespace sivid::report {
 
 namespace detail {
 
-SIVID_DECL std::string special_text(double x) {
+inline std::string special_text(double x) {
     return std::isnan(x) ? "?" : x > 0 ? "\xE2\x88\x9E" : std::string{minus_sign} + "\xE2\x88\x9E";
 }
 
-SIVID_DECL std::string bound_text(double x, int quantum, int shift, int power, rounding way) {
+/// One number, rounded at 10^quantum and written relative to 10^power.
+inline std::string bound_text(double x, int quantum, int shift, int power, rounding way) {
     if (!std::isfinite(x)) {
         return special_text(x);
     }
@@ -51,6 +52,27 @@ SIVID_DECL std::string rounded_text(double x, rounding way, number_format f) {
     return power == 0 ? text : text + power_text(power);
 }
 
+namespace detail {
+
+/// The shortest decimal that reads back within so much of x.
+inline std::string text_within(double x, double slack) {
+    if (!std::isfinite(x) || x == 0) {
+        return x == 0 ? "0" : special_text(x);
+    }
+    int digits = 0;
+    double back = x;
+    do {
+        char text[40];
+        auto const end =
+            std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, digits++).ptr;
+        back =
+            parse_nearest(std::string_view(text, static_cast<std::size_t>(end - text))).value_or(x);
+    } while (!(std::fabs(back - x) <= slack) && digits < 17);
+    return rounded_text(back, rounding::nearest, {.significant = digits, .shift = 0});
+}
+
+} // namespace detail
+
 SIVID_DECL std::string wider_text(double share) {
     if (share < 1)
         return rounded_text(std::max(0.0, share), rounding::up, {.significant = 2, .shift = 2}) +
@@ -76,22 +98,7 @@ SIVID_DECL std::optional<std::string> inward_text(range const& r, number_format 
 }
 
 SIVID_DECL std::string given_text(double x) {
-    if (!std::isfinite(x) || x == 0) {
-        return x == 0 ? "0" : detail::special_text(x);
-    }
-    double const slack = 2 * (std::nextafter(std::fabs(x), INFINITY) - std::fabs(x));
-    for (int digits = 1; digits < 17; ++digits) {
-        char text[40];
-        auto const end =
-            std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, digits - 1)
-                .ptr;
-        double const back =
-            parse_nearest(std::string_view(text, static_cast<std::size_t>(end - text))).value_or(x);
-        if (std::fabs(back - x) <= slack) {
-            return rounded_text(back, rounding::nearest, {.significant = digits, .shift = 0});
-        }
-    }
-    return rounded_text(x, rounding::nearest, {.significant = 17, .shift = 0});
+    return detail::text_within(x, 2 * (std::nextafter(std::fabs(x), INFINITY) - std::fabs(x)));
 }
 
 SIVID_DECL std::string given_text(range const& r) {
@@ -99,23 +106,7 @@ SIVID_DECL std::string given_text(range const& r) {
                        : std::string{"["} + given_text(r.lo) + ", " + given_text(r.hi) + "]";
 }
 
-SIVID_DECL std::string exact_text(double x) {
-    if (!std::isfinite(x) || x == 0) {
-        return x == 0 ? "0" : detail::special_text(x);
-    }
-    for (int digits = 1; digits <= 17; ++digits) {
-        char text[40];
-        auto const end =
-            std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, digits - 1)
-                .ptr;
-        double const back =
-            parse_nearest(std::string_view(text, static_cast<std::size_t>(end - text))).value_or(x);
-        if (back == x) {
-            return rounded_text(back, rounding::nearest, {.significant = digits, .shift = 0});
-        }
-    }
-    return rounded_text(x, rounding::nearest, {.significant = 17, .shift = 0});
-}
+SIVID_DECL std::string exact_text(double x) { return detail::text_within(x, 0); }
 
 SIVID_DECL std::string outward_text_within(range const& proven, range const& given,
                                            number_format f) {

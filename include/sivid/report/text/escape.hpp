@@ -4,24 +4,11 @@
 
 #include <sivid/compiled.hpp>
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace sivid::report {
-
-/// One code point of UTF-8 text and the bytes it takes; `valid` is false for anything that XML 1.0
-/// or UTF-8 forbids (overlong forms, surrogates, control characters, a cut sequence).
-struct code_point {
-    std::uint32_t value = 0xFFFD;
-    std::size_t bytes = 1;
-    bool valid = false;
-};
-
-/// Reads the code point at the front of a non-empty text. An invalid byte takes one byte.
-[[nodiscard]] SIVID_DECL code_point first_code_point(std::string_view text);
 
 /// Text made safe as XML or HTML content and inside a quoted attribute: markup characters become
 /// entities, everything that is not valid text becomes U+FFFD.

@@ -2,9 +2,12 @@
 #ifndef SIVID_REPORT_TEXT_RANGE_HPP
 #define SIVID_REPORT_TEXT_RANGE_HPP
 
+#include <sivid/number/interval.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace sivid::report {
 
@@ -14,6 +17,12 @@ namespace sivid::report {
 struct range {
     double lo = std::numeric_limits<double>::infinity();
     double hi = -std::numeric_limits<double>::infinity();
+
+    constexpr range() = default;
+    constexpr range(double low, double high) : lo{low}, hi{high} {}
+    /// The ends of an interval, as they are; of nothing an empty range.
+    range(interval const& x) : lo{x.lower()}, hi{x.upper()} {}
+    range(std::optional<interval> const& x) : range{x ? range{*x} : range{}} {}
 
     friend bool operator==(range const&, range const&) = default;
 };

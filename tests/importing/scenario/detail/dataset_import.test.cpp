@@ -89,7 +89,7 @@ TEST_CASE("what is rounded is in the bound") {
                                 "\"column\": \"pump\", \"factor\": 0.1, \"error\": 1e-20");
     auto const u = import_csv(input, small_table).data.scenarios.at(0).inputs.at(0);
     REQUIRE(u.stated_error.size() == 4);
-    auto const exact = dec("0.15"), stated = exact_value(u.signal.values()[0]);
+    auto const exact = dec("0.15"), stated = exact_decimal::of(u.signal.values()[0]);
     CHECK_FALSE(u.stated_error[0] < magnitude(exact - stated) + dec("1e-20"));
     CHECK(u.stated_error[0] < magnitude(exact - stated).times(2));
     CHECK(u.stated_error[2] == dec("1e-20")); // 0.25 is a double

@@ -27,7 +27,7 @@ start_reading reading(double t, double y, double e) {
 bool holds(start_proposal const& p, double x) {
     REQUIRE(p.range);
     CHECK(contains(p.range->enclosure, *nearest(p.range->lower)));
-    return !(exact_value(x) < p.range->lower) && !(p.range->upper < exact_value(x));
+    return !(exact_decimal::of(x) < p.range->lower) && !(p.range->upper < exact_decimal::of(x));
 }
 double wide(start_proposal const& p) { return width(p.range->enclosure); }
 

@@ -50,13 +50,13 @@ TEST_CASE("variables of both byte orders, exactly") {
         auto const* t = find(file, "t");
         REQUIRE(t);
         CHECK(t->about == "double 3x1");
-        CHECK(*t->at(1, 0) == exact_value(0.1)); // all digits of the double
+        CHECK(*t->at(1, 0) == exact_decimal::of(0.1)); // all digits of the double
         CHECK_FALSE(*t->at(1, 0) == dec("0.1"));
         auto const* x = find(file, "X");
         REQUIRE(x);
         CHECK(*x->at(1, 1) == dec("255"));
         CHECK(*x->at(0, 1) == dec("3"));
-        CHECK(*find(file, "f")->at(0, 0) == exact_value(static_cast<double>(0.1F)));
+        CHECK(*find(file, "f")->at(0, 0) == exact_decimal::of(static_cast<double>(0.1F)));
         CHECK(*t->meant_at(1, 0) == dec("0.1"));
         CHECK(*find(file, "f")->meant_at(0, 0) == dec("0.1"));
         CHECK(find(file, "f")->single);

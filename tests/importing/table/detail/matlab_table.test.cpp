@@ -48,7 +48,7 @@ TEST_CASE("vectors, columns, rows and fields become a table") {
 TEST_CASE("the digits of a double that are cut go into the bound") {
     auto const text = w.file(w.doubles("t", 1, 2, {0, 1}) + w.doubles("y", 1, 2, {0.1, 0.2}));
     auto const s = import_csv(mapping(by_t, "t", "y"), text).data.scenarios.at(0);
-    auto const truth = exact_value(0.1).times(dec("0.01"));
+    auto const truth = exact_decimal::of(0.1).times(dec("0.01"));
     CHECK_FALSE(s.stated[0].value + s.stated[0].error < truth + dec("0.02"));
     CHECK_FALSE(truth - dec("0.02") < s.stated[0].value - s.stated[0].error);
 }

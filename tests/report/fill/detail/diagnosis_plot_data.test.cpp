@@ -7,7 +7,9 @@
 #include <sivid/report/diagnosis_report.hpp>
 #include <sivid/report/fill/detail/diagnosis_plot_data.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace sivid::report;
 
@@ -24,16 +26,21 @@ TEST_CASE("plot data: fits to a campaign become measured intervals and outputs")
     auto const& p = all[0].channels[0];
     CHECK(p.name == "p");
     CHECK(p.unit == "m");
-    REQUIRE(p.times.size() == 40);
-    REQUIRE(p.base.size() == 40);
+    REQUIRE(p.measured.size() == 40);
+    REQUIRE(p.before.size() == 40);
     CHECK(p.after.empty());
-    CHECK(std::count(p.outliers.begin(), p.outliers.end(), true) == 0);
+    CHECK(std::all_of(p.measured.begin(), p.measured.end(),
+                      [](measured_sample const& m) { return m.state == sample_state::regular; }));
     // The largest misfit of the plot is the inflation of the fit.
     double largest = 0;
     for (auto const& s : all) {
         for (auto const& c : s.channels) {
-            for (std::size_t k = 0; k < c.times.size(); ++k) {
-                largest = std::max(largest, std::fabs(c.base[k] - c.values[k]) / c.bounds[k]);
+            REQUIRE(c.misfit_before.size() == c.measured.size());
+            for (std::size_t k = 0; k < c.measured.size(); ++k) {
+                auto const& m = c.measured[k].value;
+                double const off = std::fabs(c.before[k].y - (m.lo + m.hi) / 2);
+                CHECK_THAT(c.misfit_before[k].y, WithinAbs(off / ((m.hi - m.lo) / 2), 1e-9));
+                largest = std::max(largest, c.misfit_before[k].y);
             }
         }
     }
@@ -56,6 +63,30 @@ TEST_CASE("plot data: without a fit the measurements remain") {
     auto const all = compared_scenarios(small_campaign::problem(), {}, {}, true);
     REQUIRE(all.size() == 2);
     CHECK(all[0].holdout);
-    CHECK(all[0].channels[1].base.empty());
-    CHECK(all[0].channels[1].values.size() == 40);
+    CHECK(all[0].channels[1].before.empty());
+    CHECK(all[0].channels[1].measured.size() == 40);
+}
+
+TEST_CASE("plot data: a suspected outlier has a line, and no misfit") {
+    auto problem = small_campaign::problem();
+    problem.experiments.resize(1);
+    auto& experiment = problem.experiments[0];
+    experiment.outliers = 1;
+    sivid::approximate_fit fit, better;
+    fit.residuals = {std::vector<double>(experiment.measurements.size(), 0.5)};
+    better.residuals = fit.residuals;
+    better.residuals[0][2] = 3; // the better fit tells what is suspected
+    auto const all = compared_scenarios(problem, fit, better);
+    std::size_t suspected = 0, before = 0, after = 0, misfits = 0;
+    for (auto const& c : all[0].channels) {
+        for (auto const& m : c.measured) suspected += m.state == sample_state::suspect ? 1 : 0;
+        before += c.before.size();
+        after += c.after.size();
+        misfits += c.misfit_before.size();
+        CHECK(c.misfit_before.size() == c.misfit_after.size());
+    }
+    CHECK(suspected == 1);
+    CHECK(before == experiment.measurements.size());
+    CHECK(after == before);
+    CHECK(misfits == before - 1);
 }

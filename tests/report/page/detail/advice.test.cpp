@@ -56,7 +56,7 @@ TEST_CASE("advice: the largest misfit is told in the unit of its channel") {
     b.measured = {{.time = 1.5, .value = {0, 0.02}}};
     b.misfit_before = {{1.5, 2}};
     b.misfit_after = {{1.5, 0.75}};
-    v.scenarios = {{"S1", false, {a, b}}, {"S2", false, {}}};
+    v.plots.scenarios = {{"S1", false, {a, b}}, {"S2", false, {}}};
     auto const t = cost_table(v);
     REQUIRE(t.rows.size() == 1);
     CHECK(t.rows[0] ==
@@ -65,33 +65,37 @@ TEST_CASE("advice: the largest misfit is told in the unit of its channel") {
 
 TEST_CASE("advice: what to do where no effect is the answer") {
     diagnosis_view v;
-    v.gap = gap_state::absent;
+    v.gap = sivid::gap_verdict::none;
     CHECK_THAT(all_of(advice_lines(v)), StartsWith("Nothing has to be added"));
-    v.gap = gap_state::present;
-    v.answer = answer_state::open;
+    v.gap = sivid::gap_verdict::certified;
+    v.answer = sivid::answer_kind::open;
     CHECK_THAT(all_of(advice_lines(v)), ContainsSubstring("--budget"));
-    v.answer = answer_state::unexplained;
-    v.places = {{.kind = "equation", .name = "yaw", .where = {"S4", 1, 2}}};
+    v.answer = sivid::answer_kind::unexplained;
+    v.where.resize(1);
+    v.where[0].kind = "equation";
+    v.where[0].name = "yaw";
+    v.where[0].where = {"S4", 1, 2};
     CHECK_THAT(all_of(advice_lines(v)),
                ContainsSubstring("Look for an effect of your own in the yaw equation (S4, 1"));
-    v.places.clear();
+    v.where.clear();
     CHECK_THAT(all_of(advice_lines(v)), ContainsSubstring("no place stands out"));
-    confined_view c{.channel = "v", .factor = {1.61, 1.66}};
+    sivid::confined_gap c{.channel = "v", .factor = sivid::interval(1.61, 1.66)};
     auto const advice = [&] {
         v.confined = {c};
         return all_of(advice_lines(v));
     };
     CHECK_THAT(advice(), ContainsSubstring("1.61 to 1.66 times as wide") &&
                              !ContainsSubstring("effect of your own"));
-    c.grows = confined_view::growth::rate;
+    using with = sivid::noise_growth::with;
+    c.grows = sivid::noise_growth{with::rate};
     CHECK_THAT(advice(), ContainsSubstring("time stamps of v"));
-    c.grows = confined_view::growth::value;
+    c.grows->what = with::value;
     CHECK_THAT(advice(), ContainsSubstring("Calibrate v"));
-    c.step = 0.125;
+    c.steps = sivid::reading_steps{0.125};
     CHECK_THAT(advice(), ContainsSubstring("wider by half a step"));
-    c.cut_off = true;
+    c.steps->cut_off = true;
     CHECK_THAT(advice(), ContainsSubstring("wider by a step"));
-    c = {.scenarios = {"S3"}, .factor = {4, 5}};
+    c = {.scenarios = {"S3"}, .factor = sivid::interval(4, 5)};
     CHECK_THAT(advice(), ContainsSubstring("what was different in S3"));
     CHECK(advice_lines({}).empty());
     CHECK(page_of({}).find("What to do now") == std::string::npos);
@@ -106,13 +110,13 @@ TEST_CASE("advice: whether an experiment has to tell explanations apart") {
     CHECK_THAT(all_of(advice_lines(v)),
                ContainsSubstring("far less well on the whole (estimate): input_delay"));
     // What holds the answer is no other explanation.
-    std::erase_if(v.candidates, [](candidate_view const& c) {
+    std::erase_if(v.causes, [](sivid::cause const& c) {
         return c.effects == std::vector<std::string>{"input_delay"};
     });
     CHECK_THAT(all_of(advice_lines(v)), ContainsSubstring("No other candidate was found") &&
                                             ContainsSubstring("no experiment has to tell"));
-    v.singles = {.tried = 8, .planned = 8};
-    v.pairs = {.tried = 0, .planned = 28};
+    v.tried.singles = {.tried = 8, .planned = 8};
+    v.tried.pairs = {.tried = 0, .planned = 28};
     CHECK_THAT(all_of(advice_lines(v)), ContainsSubstring("no pair): a larger --budget") &&
                                             !ContainsSubstring("no experiment has to tell"));
 }

@@ -18,7 +18,7 @@ TEST_CASE("diagnosis figures: before and after stand side by side with one key")
 }
 
 TEST_CASE("diagnosis figures: one for each equation, scenarios on one scale") {
-    auto const all = missing_rate_figures(hovercraft_diagnosis().view().missing_rates);
+    auto const all = missing_rate_figures(hovercraft_diagnosis().view().plots.missing_rates);
     REQUIRE(all.size() == 2);
     CHECK(all[0].title == "Missing in the yaw equation.");
     CHECK(all[0].panels.size() == 2);
@@ -27,9 +27,9 @@ TEST_CASE("diagnosis figures: one for each equation, scenarios on one scale") {
 
 TEST_CASE("diagnosis figures: motions and candidates") {
     auto const v = hovercraft_diagnosis().view();
-    CHECK(motion_figure(v.scenarios[0]).panels.size() == 6);
-    CHECK(motion_figure(v.scenarios[0]).caption.empty());
-    CHECK_THAT(motion_figure(v.scenarios[2]).caption, ContainsSubstring("Held-out data"));
+    CHECK(motion_figure(v.plots.scenarios[0]).panels.size() == 6);
+    CHECK(motion_figure(v.plots.scenarios[0]).caption.empty());
+    CHECK_THAT(motion_figure(v.plots.scenarios[2]).caption, ContainsSubstring("Held-out data"));
     CHECK(motion_figure({}).panels.empty());
     auto const f = candidate_figure(v, 4);
     REQUIRE(f.panels.size() == 1);

@@ -4,11 +4,25 @@
 
 #include <sivid/report/words/detail/place_words.hpp>
 
+#include <string>
+#include <utility>
+
 using namespace sivid::report;
 using namespace sivid_tests;
 
+namespace {
+
+sivid::suspected_place place(std::string kind, std::string name) {
+    sivid::suspected_place p;
+    p.kind = std::move(kind);
+    p.name = std::move(name);
+    return p;
+}
+
+} // namespace
+
 TEST_CASE("place words: relations and places in plain words") {
-    relation_view r{"yaw", {"r", "psi"}, true, {}, {"inputs exact"}};
+    sivid::broken_relation_report r{"yaw", {"r", "psi"}, true, {"inputs exact"}, {}};
     for (int k = 0; k < 6; ++k) r.windows.push_back({"S4", 1.0 * k, k + 0.5});
     CHECK(missing_fact(relation_words(r),
                        {"yaw", "r and psi", "proved", "S4", "0 to 0.5\xC2\xA0s", "2 more"}) == "");
@@ -19,11 +33,11 @@ TEST_CASE("place words: relations and places in plain words") {
     std::string const alone = relation_words({"yaw", {}, true, {}, {}});
     CHECK(missing_fact(alone, {"yaw", "proved"}) == "");
     CHECK(alone.find("sensor") == std::string::npos);
-    CHECK(missing_fact(place_clause({.kind = "sensor", .name = "r"}), {"sensor r", "estimate"}) ==
-          "");
-    CHECK(missing_fact(
-              place_clause({.kind = "sensor", .name = "r", .estimate = 0.25, .unit = "rad/s"}),
-              {"sensor r", "0.250\xC2\xA0rad/s", "estimate"}) == "");
+    auto sensor = place("sensor", "r");
+    CHECK(missing_fact(place_clause(sensor), {"sensor r", "estimate"}) == "");
+    sensor.estimate = 0.25;
+    sensor.unit = "rad/s";
+    CHECK(missing_fact(place_clause(sensor), {"sensor r", "0.250\xC2\xA0rad/s", "estimate"}) == "");
 }
 
 TEST_CASE("place words: lists, windows and laws") {
@@ -32,15 +46,14 @@ TEST_CASE("place words: lists, windows and laws") {
     CHECK(window_text({"", 0, 1}) == "0 to 1\xC2\xA0s");
     CHECK(law_text("F_u * r") == law_text("F_u*r"));
     CHECK(law_text("a + b") == "a + b");
-    CHECK(place_name({.name = "yaw"}) == "yaw");
-    CHECK(place_name({.kind = "input", .name = "delta"}) == "input delta");
-    CHECK(missing_fact(place_clause({.kind = "equation",
-                                     .name = "yaw",
-                                     .proved = true,
-                                     .missing = {-0.5, -0.25},
-                                     .unit = "rad/s^2",
-                                     .law = "r",
-                                     .regime = "r > 1"}),
-                       {"yaw equation", "0.5", "0.25", "proved", "shape of r", "estimate", "r > 1",
-                        "estimate"}) == "");
+    CHECK(place_name(place("", "yaw")) == "yaw");
+    CHECK(place_name(place("input", "delta")) == "input delta");
+    auto yaw = place("equation", "yaw");
+    yaw.proved = true;
+    yaw.missing = sivid::interval(-0.5, -0.25);
+    yaw.unit = "rad/s^2";
+    yaw.law = "r";
+    yaw.regime = "r > 1";
+    CHECK(missing_fact(place_clause(yaw), {"yaw equation", "0.5", "0.25", "proved", "shape of r",
+                                           "estimate", "r > 1", "estimate"}) == "");
 }

@@ -5,8 +5,6 @@
 #include <sivid/io/text/exact_decimal.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -14,20 +12,6 @@
 #include <utility>
 
 namespace sivid {
-
-/// What a finite double is, all digits.
-[[nodiscard]] inline exact_decimal exact_value(double x) {
-    // x = f 2^e has its last bit at 2^(e - 53): so many places, less the zeros in front.
-    int e = 0;
-    (void)std::frexp(x, &e);
-    int const digits = std::max(53 - e, 0) + static_cast<int>(std::floor(0.30103 * e)) + 3;
-    std::array<char, 800> buffer;
-    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
-                                   std::chars_format::scientific, std::clamp(digits, 17, 766))
-                         .ptr;
-    return exact_decimal::parse({buffer.data(), static_cast<std::size_t>(end - buffer.data())})
-        .value_or(exact_decimal{});
-}
 
 /// |x|.
 [[nodiscard]] inline exact_decimal magnitude(exact_decimal const& x) {

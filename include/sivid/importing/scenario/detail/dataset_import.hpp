@@ -185,8 +185,8 @@ private:
             result = proposed_.at({input, q.mapping->name});
         auto more = sample.reading.rounding;
         if (input) // the file means the nearest double
-            more = more +
-                   magnitude(exact_value(*nearest(sample.reading.value)) - sample.reading.value);
+            more = more + magnitude(exact_decimal::of(*nearest(sample.reading.value)) -
+                                    sample.reading.value);
         return more.is_zero() ? result : rounded_up(result + more, 9);
     }
 

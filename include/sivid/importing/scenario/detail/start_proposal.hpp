@@ -51,8 +51,8 @@ namespace io_detail {
         result.refusal = "the readings bound it beyond 1e100 only";
     } else {
         constexpr std::size_t digits = 9;
-        auto const lower = exact_value(a).divided_by(1, digits).first;
-        auto const upper = exact_value(b).divided_by(1, digits).second;
+        auto const lower = exact_decimal::of(a).divided_by(1, digits).first;
+        auto const upper = exact_decimal::of(b).divided_by(1, digits).second;
         result.range = stated_range{lower, upper, *enclose(lower, upper)};
     }
     return result;

@@ -73,7 +73,7 @@ struct matlab_variable {
         double const x = type == 7 ? static_cast<double>(read(float{})) : read(double{});
         if (std::isnan(x)) return std::nullopt;
         if (std::isinf(x)) throw std::range_error{"infinite"};
-        return exact_value(x);
+        return exact_decimal::of(x);
     }
 
     /// The decimal that a number was computed from: the shortest that its precision tells, so 0.3,

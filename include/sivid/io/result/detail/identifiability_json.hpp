@@ -5,8 +5,8 @@
 #include <sivid/io/text/json_writer.hpp>
 #include <sivid/paving/identifiability.hpp>
 
+#include <array>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace sivid {
@@ -16,60 +16,42 @@ namespace sivid {
 ///   from both sides, and in floating point; `free`, `fixed`: motions and formulas, each with
 ///   whether it is proved; `hardly_noticed`, `nearly_fixed`, `directions`: computed, not proved.
 inline void write_identifiability(json_writer& json, identifiability const& found) {
-    using layout = json_writer::layout;
-    auto const name = [&](std::size_t c) { return found.unknowns[c].name; };
-    json.begin_object().key("at").begin_object(layout::one_line);
-    for (std::size_t c = 0; c < found.unknowns.size(); ++c) {
-        auto const& q = found.unknowns[c];
+    constexpr auto one_line = json_writer::layout::one_line;
+    json.begin_object().named("at", found.unknowns, [&](unknown_quantity const& q) {
         auto const& side =
             q.experiment ? found.starts[*q.experiment][q.index] : found.parameters[q.index];
-        json.key(q.name).begin_array(layout::one_line);
-        json.nearest(side.lower()).nearest(side.upper()).end_array();
-    }
-    json.end_object().key("unknowns").begin_array(layout::one_line);
-    for (auto const& q : found.unknowns) json.string(q.name);
-    json.end_array().key("outputs").integer(found.outputs);
-    json.key("outputs_not_reached").integer(found.missing);
-    json.key("rank").begin_object(layout::one_line).key("least").integer(found.least_rank);
-    json.key("most").integer(found.most_rank);
-    json.key("approximate").integer(found.approximate_rank).end_object();
+        return std::array{side.lower(), side.upper()};
+    });
+    json.list("unknowns", found.unknowns, &unknown_quantity::name);
+    json.members("outputs", found.outputs, "outputs_not_reached", found.missing);
+    json.key("rank").object("least", found.least_rank, "most", found.most_rank, "approximate",
+                            found.approximate_rank);
 
-    auto const motions = [&](std::string const& key, std::vector<free_motion> const& list) {
-        json.key(key).begin_array();
-        for (auto const& m : list) {
-            json.begin_object(layout::one_line).key("kind");
-            json.string(m.kind == motion_kind::scaling ? "scaling" : "translation");
-            json.key("weights").begin_object(layout::one_line);
+    auto const motions = [&](char const* key, std::vector<free_motion> const& all) {
+        json.list(key, all, [&](free_motion const& m) {
+            json.begin_object(one_line);
+            json.members("kind", m.kind == motion_kind::scaling ? "scaling" : "translation");
+            json.key("weights").begin_object();
             for (std::size_t c = 0; c < m.weights.size(); ++c) {
-                if (m.weights[c] != 0) json.key(name(c)).integer(m.weights[c]);
+                if (m.weights[c] != 0) json.members(found.unknowns[c].name, m.weights[c]);
             }
-            json.end_object().key("noticed").nearest(m.noticed);
-            json.key("proved").boolean(m.proved).end_object();
-        }
-        json.end_array();
+            json.end_object().members("noticed", m.noticed, "proved", m.proved).end_object();
+        });
     };
-    auto const formulas = [&](std::string const& key, std::vector<fixed_formula> const& list) {
-        json.key(key).begin_array();
-        for (auto const& f : list) {
-            json.begin_object(layout::one_line).key("formula").string(f.formula);
-            json.key("proved").boolean(f.proved).end_object();
-        }
-        json.end_array();
+    auto const formulas = [&](char const* key, std::vector<fixed_formula> const& all) {
+        json.list(key, all, [&](fixed_formula const& f) {
+            json.object("formula", f.formula, "proved", f.proved);
+        });
     };
     motions("free", found.free);
     formulas("fixed", found.fixed);
     motions("hardly_noticed", found.nearly_free);
     formulas("nearly_fixed", found.nearly_fixed);
-    json.key("directions").begin_array();
-    for (auto const& d : found.directions) {
-        json.begin_object(layout::one_line).key("noticed").nearest(d.noticed);
-        json.key("components").begin_object(layout::one_line);
-        for (std::size_t c = 0; c < d.components.size(); ++c) {
-            json.key(name(c)).nearest(d.components[c]);
-        }
-        json.end_object().end_object();
-    }
-    json.end_array().end_object();
+    json.list("directions", found.directions, [&](sensitive_direction const& d) {
+        json.begin_object(one_line).members("noticed", d.noticed);
+        json.named("components", found.unknowns, d.components).end_object();
+    });
+    json.end_object();
 }
 
 } // namespace sivid

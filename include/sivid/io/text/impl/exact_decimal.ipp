@@ -4,6 +4,7 @@
 
 #include <sivid/io/text/exact_decimal.hpp>
 
+#include <cmath>
 #include <cstdint>
 
 namespace sivid {
@@ -53,6 +54,18 @@ SIVID_DECL std::optional<exact_decimal> exact_decimal::parse(std::string_view te
 SIVID_DECL exact_decimal exact_decimal::shortest(double value) {
     char buffer[64];
     auto const end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
+}
+
+SIVID_DECL exact_decimal exact_decimal::of(double value) {
+    // value = f 2^e has its last bit at 2^(e - 53): so many places, less the zeros in front.
+    int e = 0;
+    (void)std::frexp(value, &e);
+    int const digits = std::max(53 - e, 0) + static_cast<int>(std::floor(0.30103 * e)) + 3;
+    char buffer[800];
+    auto const end = std::to_chars(buffer, buffer + sizeof buffer, value,
+                                   std::chars_format::scientific, std::clamp(digits, 17, 766))
+                         .ptr;
     return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
 }
 

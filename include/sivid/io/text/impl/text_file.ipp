@@ -24,36 +24,6 @@ SIVID_DECL std::string read_text(std::filesystem::path const& file) {
     return text;
 }
 
-SIVID_DECL void write_atomically(std::filesystem::path const& file, std::string_view text) {
-    namespace fs = std::filesystem;
-    std::error_code fault;
-    if (file.has_parent_path()) {
-        fs::create_directories(file.parent_path(), fault);
-        if (fault)
-            throw output_error{file.parent_path().string() +
-                               ": cannot be created: " + fault.message()};
-    }
-    std::random_device random;
-    auto temporary = file;
-    temporary += ".part";
-    temporary += std::to_string(random());
-    {
-        std::ofstream out{temporary, std::ios::binary | std::ios::trunc};
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
-        out.close();
-        if (!out) {
-            fs::remove(temporary, fault);
-            throw output_error{file.string() + ": cannot be written; check permissions and space"};
-        }
-    }
-    fs::rename(temporary, file, fault);
-    if (fault) {
-        auto const reason = fault.message();
-        fs::remove(temporary, fault);
-        throw output_error{file.string() + ": cannot be written: " + reason};
-    }
-}
-
 } // namespace sivid
 
 #endif

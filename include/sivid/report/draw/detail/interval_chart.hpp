@@ -3,6 +3,7 @@
 #define SIVID_REPORT_DRAW_DETAIL_INTERVAL_CHART_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/report/draw/legend.hpp>
 #include <sivid/report/draw/ticks.hpp>
 #include <sivid/report/number_text.hpp>

@@ -25,7 +25,6 @@ struct motion_plot_options {
     double width = 360;
     double height = 230;
     std::string title{};
-    std::string dashed = "least squares, not validated";
     std::string full = "witness, not validated";
 };
 

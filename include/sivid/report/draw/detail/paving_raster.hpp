@@ -55,22 +55,6 @@ struct region_rect {
     region what;
 };
 
-namespace detail {
-
-/// True when r has points inside the window, or is a single value on it.
-SIVID_DECL bool shows(range const& window, range const& r);
-
-/// Break points of one axis: the ends of the boxes when at most `most` cells result, else evenly
-/// spaced (also when a box has no width there, so that it cannot take a wide cell).
-/// @returns whether they are the ends
-SIVID_DECL bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
-                            range const& window, std::size_t most, std::vector<double>& out);
-
-/// The cells that [r] touches, [first, last); at least one, so that thin pieces stay visible.
-SIVID_DECL std::array<std::size_t, 2> touched(std::vector<double> const& breaks, range const& r);
-
-} // namespace detail
-
 /// Projects boxes on a window of the plane, at most `most` cells a side. What no box covers is
 /// outside: contraction removes proven-outside parts without leaving a box.
 /// @given  window finite, of positive width

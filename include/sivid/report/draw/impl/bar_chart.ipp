@@ -56,9 +56,10 @@ SIVID_DECL svg draw_bar_chart(std::vector<bar> const& bars, bar_chart_options co
             continue;
         }
         double const zero = px(0), low = px(b.value.lo), high = px(b.value.hi);
-        out.rect(std::min(zero, low), y + 6, std::abs(low - zero), 16, {.fill = b.colour});
-        out.rect(low, y + 6, high - low, 16,
-                 {.fill = out.hatch("#ffffff", b.colour), .stroke = b.colour, .width = 1});
+        out.rect(std::min(zero, low), y + 6, std::abs(low - zero), 16, {.fill = palette::blue});
+        out.rect(
+            low, y + 6, high - low, 16,
+            {.fill = out.hatch("#ffffff", palette::blue), .stroke = palette::blue, .width = 1});
         std::string const label = outward_text(b.value) + (b.note.empty() ? "" : "  " + b.note);
         double const text_x = std::max(high, zero) + 7;
         labels.push_back({text_x, y, label});

@@ -6,16 +6,16 @@
 
 namespace sivid::report {
 
-SIVID_DECL std::string_view state_sign(candidate_state s) {
-    return s == candidate_state::explains   ? "\xE2\x9C\x93"
-           : s == candidate_state::excluded ? "\xE2\x9C\x95"
-                                            : "?";
+SIVID_DECL std::string_view state_sign(cause_verdict s) {
+    return s == cause_verdict::explains   ? "\xE2\x9C\x93"
+           : s == cause_verdict::excluded ? "\xE2\x9C\x95"
+                                          : "?";
 }
 
-SIVID_DECL std::string_view state_words(candidate_state s) {
-    return s == candidate_state::explains   ? "explains (proved)"
-           : s == candidate_state::excluded ? "excluded (proved)"
-                                            : "open";
+SIVID_DECL std::string_view state_words(cause_verdict s) {
+    return s == cause_verdict::explains   ? "explains (proved)"
+           : s == cause_verdict::excluded ? "excluded (proved)"
+                                          : "open";
 }
 
 SIVID_DECL bool is_fitted(double inflation) { return std::isfinite(inflation) && inflation > 0; }
@@ -51,17 +51,17 @@ SIVID_DECL std::string estimate_text(double x) {
 
 namespace detail {
 
-SIVID_DECL std::string_view state_colour(candidate_state s) {
-    return s == candidate_state::explains   ? palette::inside
-           : s == candidate_state::excluded ? palette::outlier
-                                            : palette::frame;
+inline std::string_view state_colour(cause_verdict s) {
+    return s == cause_verdict::explains   ? palette::inside
+           : s == cause_verdict::excluded ? palette::outlier
+                                          : palette::frame;
 }
 
 // Of a sign in the same meaning: dark enough for a letter.
-SIVID_DECL std::string_view state_ink(candidate_state s) {
-    return s == candidate_state::explains   ? palette::inside
-           : s == candidate_state::excluded ? palette::outlier_ink
-                                            : palette::muted_ink;
+inline std::string_view state_ink(cause_verdict s) {
+    return s == cause_verdict::explains   ? palette::inside
+           : s == cause_verdict::excluded ? palette::outlier_ink
+                                          : palette::muted_ink;
 }
 
 } // namespace detail
@@ -90,7 +90,7 @@ SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars,
     auto const note = [](candidate_bar const& b) {
         std::string text{state_words(b.state)};
         if (says_something(b.proved)) text += ", " + inflation_text(b.proved);
-        if (b.state == candidate_state::open && is_fitted(b.fitted)) {
+        if (b.state == cause_verdict::undecided && is_fitted(b.fitted)) {
             text +=
                 ", " + estimate_text(b.fitted) + (says_something(b.proved) ? "" : " (estimate)");
         }

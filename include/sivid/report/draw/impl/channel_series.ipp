@@ -52,10 +52,9 @@ SIVID_DECL range time_range(channel_series const& c) {
     return with_margin(axis_range(out), 0.015);
 }
 
-SIVID_DECL std::string sample_tip(channel_series const& c, measured_sample const& m,
-                                  std::string_view time_unit) {
-    std::string tip = std::string{"t = "} + given_text(m.time) + ' ' + std::string{time_unit} +
-                      ": measured " + outward_text(m.value) + ' ' + unit_text(c.unit);
+SIVID_DECL std::string sample_tip(channel_series const& c, measured_sample const& m) {
+    std::string tip = "t = " + given_text(m.time) + " s: measured " + outward_text(m.value) + ' ' +
+                      unit_text(c.unit);
     if (!is_empty(m.enclosure)) {
         tip += std::string{", model within "} + outward_text(m.enclosure);
     }

@@ -16,7 +16,7 @@ SIVID_DECL channel_series plain_series(comparison_series const& c) {
     return out;
 }
 
-SIVID_DECL double median_spacing(std::vector<point> const& all) {
+inline double median_spacing(std::vector<point> const& all) {
     std::vector<double> gaps;
     for (std::size_t k = 1; k < all.size(); ++k) {
         double const gap = all[k].x - all[k - 1].x;
@@ -56,7 +56,7 @@ SIVID_DECL std::vector<legend_entry> comparison_legend(std::vector<comparison_se
 SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_options const& o) {
     auto const plain = detail::plain_series(c);
     svg out{o.width, o.height, (o.title.empty() ? c.name : o.title) + ", before and after"};
-    axes const a{{"time", o.time_unit, is_empty(o.time) ? detail::time_range(plain) : o.time},
+    axes const a{{"time", "s", is_empty(o.time) ? detail::time_range(plain) : o.time},
                  {c.name, c.unit, detail::value_range(plain)},
                  {.width = o.width, .height = o.height, .title = o.title}};
     a.draw_ground(out);
@@ -71,7 +71,7 @@ SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_option
             marked.push_back(&m);
         } else if (i % stride == 0) {
             draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::frame,
-                          stride == 1 ? detail::sample_tip(plain, m, o.time_unit) : "");
+                          stride == 1 ? detail::sample_tip(plain, m) : "");
         }
     }
     // Lines above the bars: it is they that are compared.
@@ -79,7 +79,7 @@ SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_option
     detail::draw_reference(out, a, c.after, line_after_paint);
     for (std::size_t i = 0; i < std::min(marked.size(), 4 * o.most_samples); ++i) {
         detail::draw_outlier(out, a, *marked[i], approximate_middle(marked[i]->value),
-                             detail::sample_tip(plain, *marked[i], o.time_unit));
+                             detail::sample_tip(plain, *marked[i]));
     }
     out.close();
     a.draw_frame(out);

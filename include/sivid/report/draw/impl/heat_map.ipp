@@ -6,33 +6,7 @@
 
 namespace sivid::report {
 
-namespace detail {
-
-SIVID_DECL heat_map joined(heat_map m, std::size_t most) {
-    while (m.times.size() > std::max<std::size_t>(most, 1) + 1) {
-        std::vector<double> times;
-        for (std::size_t i = 0; i < m.times.size(); i += 2) {
-            times.push_back(m.times[i]);
-        }
-        if (m.times.size() % 2 == 0) {
-            times.push_back(m.times.back());
-        }
-        for (auto& row : m.values) {
-            std::vector<double> kept;
-            for (std::size_t i = 0; i < row.size(); i += 2) {
-                kept.push_back(i + 1 < row.size() ? std::fmax(row[i], row[i + 1]) : row[i]);
-            }
-            row = std::move(kept);
-        }
-        m.times = std::move(times);
-    }
-    return m;
-}
-
-} // namespace detail
-
-SIVID_DECL svg draw_heat_map(heat_map const& data, heat_map_options const& o) {
-    heat_map const m = detail::joined(data, o.most_columns);
+SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
     double const top = o.title.empty() ? 10 : 34;
     double const pitch = 26;
     double const bottom =
@@ -113,8 +87,7 @@ SIVID_DECL svg draw_heat_map(heat_map const& data, heat_map_options const& o) {
         out.text(px(t.value), bottom + 16, t.label,
                  {.size = 11, .align = anchor::middle, .fill = palette::muted_ink});
     }
-    out.text((left + right) / 2, bottom + 33, "time [" + o.time_unit + "]",
-             {.size = 11.5, .align = anchor::middle});
+    out.text((left + right) / 2, bottom + 33, "time [s]", {.size = 11.5, .align = anchor::middle});
 
     if (!o.key) return out;
     // The colour bar: left half up to the threshold, right half beyond.

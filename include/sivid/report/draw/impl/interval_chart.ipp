@@ -30,8 +30,8 @@ SIVID_DECL svg draw_interval_chart(std::vector<interval_row> const& rows,
             double const s = (v - scale.lo) / (scale.hi - scale.lo);
             return left + (right - left) * (std::isnan(s) ? 0.0 : std::clamp(s, 0.0, 1.0));
         };
-        places += coordinate(left) + ' ' + coordinate(right) + ' ' + machine_number(scale.lo) +
-                  ' ' + machine_number(scale.hi) + ' ' + coordinate(y + 10) + " 20 " + r.name +
+        places += coordinate(left) + ' ' + coordinate(right) + ' ' + sivid::nearest_text(scale.lo) +
+                  ' ' + sivid::nearest_text(scale.hi) + ' ' + coordinate(y + 10) + " 20 " + r.name +
                   '\n';
         out.text(0, y + 24, shorten(r.name, 24), {.size = 13, .bold = true});
         out.rect(left, y + 14, right - left, 12, {.fill = palette::prior}, 3,

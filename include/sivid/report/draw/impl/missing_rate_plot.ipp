@@ -28,14 +28,14 @@ SIVID_DECL range rate_range(missing_rate_series const& s) {
     return with_margin(wanted, 0.06);
 }
 
-SIVID_DECL range rate_times(missing_rate_series const& s) {
+inline range rate_times(missing_rate_series const& s) {
     range out;
     for (rate_sample const& p : s.estimate) out = hull(out, p.time);
     for (tube_piece const& t : s.certified) out = hull(hull(out, t.from), t.to);
     return with_margin(axis_range(out), 0.015);
 }
 
-SIVID_DECL void draw_rate_band(svg& out, axes const& a, std::vector<rate_sample> const& all) {
+inline void draw_rate_band(svg& out, axes const& a, std::vector<rate_sample> const& all) {
     path_data band;
     std::vector<rate_sample const*> run;
     auto const flush = [&] {
@@ -86,7 +86,7 @@ SIVID_DECL svg draw_missing_rate(missing_rate_series const& s, time_plot_options
     svg out{o.width, o.height,
             "missing in " + s.equation + " over time" + (o.title.empty() ? "" : ", " + o.title)};
     axes const a{
-        {"time", o.time_unit, is_empty(o.time) ? detail::rate_times(s) : o.time},
+        {"time", "s", is_empty(o.time) ? detail::rate_times(s) : o.time},
         {"missing in " + s.equation, s.unit, is_empty(values) ? detail::rate_range(s) : values},
         {.width = o.width, .height = o.height, .title = o.title}};
     a.draw_ground(out);
@@ -98,8 +98,8 @@ SIVID_DECL svg draw_missing_rate(missing_rate_series const& s, time_plot_options
         double const left = a.px(t.from), top = a.py(t.value.hi);
         double const wide = std::max(a.px(t.to) - left, 1.0);
         double const high = std::max(a.py(t.value.lo) - top, 1.5);
-        std::string const tip = given_text(t.from) + " to " + given_text(t.to) + ' ' + o.time_unit +
-                                ": " + outward_text(t.value) + unit_suffix(s.unit) + ", proved";
+        std::string const tip = given_text(t.from) + " to " + given_text(t.to) + " s" + ": " +
+                                outward_text(t.value) + unit_suffix(s.unit) + ", proved";
         bool const zero = t.value.lo <= 0 && t.value.hi >= 0;
         if (zero) {
             out.rect(left, top, wide, high, {.stroke = palette::measurement}, 0, tip);

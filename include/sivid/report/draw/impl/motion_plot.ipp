@@ -24,7 +24,7 @@ SIVID_DECL std::vector<legend_entry> motion_plot_legend(std::vector<motion_serie
     if (any([](motion_series const& m) { return !m.single.empty(); }))
         out.push_back({symbol::line_after, o.full});
     if (any([](motion_series const& m) { return !m.tube.reference.empty(); }))
-        out.push_back({symbol::line_before, o.dashed});
+        out.push_back({symbol::line_before, "least squares, not validated"});
     return out;
 }
 

@@ -70,7 +70,7 @@ SIVID_DECL std::vector<attribute_text> paving_attributes(std::vector<paving_proj
     std::string names, scales, boxes;
     for (side const& s : sides) {
         names += s.what->label + '\n' + unit_text(s.what->unit) + '\n';
-        scales += machine_number(s.hull.lo) + ' ' + machine_number(s.hull.hi) + ' ';
+        scales += sivid::nearest_text(s.hull.lo) + ' ' + sivid::nearest_text(s.hull.hi) + ' ';
     }
     for (std::size_t k = 0; k < listed; ++k) {
         std::size_t const i = order[k].second;
@@ -116,10 +116,7 @@ SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_proje
 }
 
 SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options const& o) {
-    auto const entries = o.legend ? paving_plot_legend({p}) : std::vector<legend_entry>{};
-    svg measure{0, 0, ""};
-    double const below = draw_legend(measure, entries, 0, 0, o.width - 60);
-    svg out{o.width, o.height + below,
+    svg out{o.width, o.height,
             (o.title.empty() ? p.y.label + " against " + p.x.label : o.title) + ": paving"};
     axes const a{{p.x.label, p.x.unit, is_empty(o.x_window) ? p.x.bounds : o.x_window},
                  {p.y.label, p.y.unit, is_empty(o.y_window) ? p.y.bounds : o.y_window},
@@ -165,7 +162,6 @@ SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options 
     }
     out.close();
     a.draw_frame(out);
-    draw_legend(out, entries, a.left(), o.height + 4, o.width - 60);
     return out;
 }
 

@@ -8,13 +8,17 @@ namespace sivid::report {
 
 namespace detail {
 
-SIVID_DECL bool shows(range const& window, range const& r) {
+/// True when r has points inside the window, or is a single value on it.
+inline bool shows(range const& window, range const& r) {
     return (r.lo < window.hi && r.hi > window.lo) ||
            (r.lo == r.hi && r.lo >= window.lo && r.hi <= window.hi);
 }
 
-SIVID_DECL bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
-                            range const& window, std::size_t most, std::vector<double>& out) {
+/// Break points of one axis: the ends of the boxes when at most `most` cells result, else evenly
+/// spaced (also when a box has no width there, so that it cannot take a wide cell).
+/// @returns whether they are the ends
+inline bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
+                        range const& window, std::size_t most, std::vector<double>& out) {
     out = {window.lo, window.hi};
     bool thin = false;
     for (projected_box const& b : boxes) {
@@ -41,7 +45,8 @@ SIVID_DECL bool axis_breaks(std::vector<projected_box> const& boxes, range proje
     return false;
 }
 
-SIVID_DECL std::array<std::size_t, 2> touched(std::vector<double> const& breaks, range const& r) {
+/// The cells that [r] touches, [first, last); at least one, so that thin pieces stay visible.
+inline std::array<std::size_t, 2> touched(std::vector<double> const& breaks, range const& r) {
     std::size_t const cells = breaks.size() - 1;
     auto const after = std::upper_bound(breaks.begin(), breaks.end(), r.lo) - breaks.begin();
     auto const first =

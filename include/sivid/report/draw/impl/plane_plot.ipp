@@ -37,7 +37,7 @@ SIVID_DECL std::vector<plane_box> joined(std::vector<plane_box> boxes, std::size
     return boxes;
 }
 
-SIVID_DECL void add_box(path_data& d, axes const& a, plane_box const& b, double least) {
+inline void add_box(path_data& d, axes const& a, plane_box const& b, double least) {
     double const x = a.px(b.x.lo), y = a.py(b.y.hi);
     double const w = a.px(b.x.hi) - x, h = a.py(b.y.lo) - y;
     double const more_w = std::max(0.0, least - w), more_h = std::max(0.0, least - h);
@@ -72,14 +72,14 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
         xs = intersect(xs, {x_core.lo - room, x_core.hi + room});
         ys = intersect(ys, {y_core.lo - room, y_core.hi + room});
     }
-    axes const a{
-        {s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
-        {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
-        {.width = o.width, .height = o.height, .title = o.title, .equal_aspect = o.equal_aspect}};
+    axes const a{{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
+                 {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
+                 {.width = o.width, .height = o.height, .title = o.title, .equal_aspect = true}};
     a.draw_ground(out);
     out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    constexpr std::size_t most_boxes = 4000;
     path_data boxes;
-    for (plane_box const& b : detail::joined(s.tube, o.most_boxes)) {
+    for (plane_box const& b : detail::joined(s.tube, most_boxes)) {
         if (!is_empty(b.x) && !is_empty(b.y)) {
             detail::add_box(boxes, a, b, 1.2);
         }
@@ -97,7 +97,7 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
     }
     out.path(line, {.stroke = palette::truth, .width = 1.5, .dash = "5 3"});
     path_data measured;
-    for (plane_box const& b : detail::joined(s.measured, o.most_boxes)) {
+    for (plane_box const& b : detail::joined(s.measured, most_boxes)) {
         if (is_finite(b.x) && is_finite(b.y)) {
             detail::add_box(measured, a, b, 3);
         }

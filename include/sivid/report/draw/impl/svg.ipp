@@ -20,11 +20,6 @@ SIVID_DECL std::string coordinate(double value) {
     return out == "-0" ? "0" : std::string{out};
 }
 
-SIVID_DECL std::string machine_number(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 SIVID_DECL path_data& path_data::rect(double x, double y, double w, double h) {
     text_ += std::string(1, 'M') + coordinate(x) + ' ' + coordinate(y) + 'h' + coordinate(w) + 'v' +
              coordinate(h) + 'h' + coordinate(-w) + 'z';
@@ -68,7 +63,6 @@ SIVID_DECL svg& svg::text(double x, double y, std::string_view what, text_style 
              : s.align == anchor::end  ? " text-anchor=\"end\""
                                        : "";
     body_ += s.bold ? " font-weight=\"600\"" : "";
-    body_ += s.italic ? " font-style=\"italic\"" : "";
     if (s.rotate != 0) {
         body_ += std::string{" transform=\"rotate("} + coordinate(s.rotate) + ' ' + coordinate(x) +
                  ' ' + coordinate(y) + ")\"";

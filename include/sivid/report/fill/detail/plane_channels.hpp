@@ -2,9 +2,6 @@
 #ifndef SIVID_REPORT_FILL_DETAIL_PLANE_CHANNELS_HPP
 #define SIVID_REPORT_FILL_DETAIL_PLANE_CHANNELS_HPP
 
-#include <sivid/number/interval.hpp>
-#include <sivid/report/text/range.hpp>
-
 #include <string>
 
 namespace sivid::report {
@@ -15,12 +12,6 @@ struct plane_channels {
     std::string y = "y";
     std::string heading{};
 };
-
-namespace detail {
-
-inline range shown(interval const& x) { return {lower(x), upper(x)}; }
-
-} // namespace detail
 
 } // namespace sivid::report
 

@@ -50,6 +50,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t most_pavings = 6; ///< projections on pairs of parameters
+
     [[nodiscard]] model_description const& about() const { return problem_.model.about; }
     [[nodiscard]] std::vector<std::string> const& names() const { return problem_.choice.unknown; }
     [[nodiscard]] std::string unit_of(std::size_t j) const {
@@ -135,8 +137,7 @@ private:
     void add_parameters() {
         for (std::size_t j = 0; j < names().size(); ++j) {
             auto const meaning = options_.meanings.find(names()[j]);
-            view_.parameters.push_back({names()[j], unit_of(j), shown(problem_.prior[j]),
-                                        shown(found_.hull[j]),
+            view_.parameters.push_back({names()[j], unit_of(j), problem_.prior[j], found_.hull[j],
                                         meaning == options_.meanings.end() ? "" : meaning->second});
         }
     }
@@ -161,8 +162,8 @@ private:
                        " on these data: the model's equations contain them in no other way, so "
                        "that no measurement can tell them apart.";
             }
-            view_.combinations.push_back({c.what.formula, c.what.unit, shown(c.hull),
-                                          shown(c.what.over(problem_.prior)), note});
+            view_.combinations.push_back(
+                {c.what.formula, c.what.unit, c.hull, c.what.over(problem_.prior), note});
         }
     }
 
@@ -179,7 +180,7 @@ private:
             auto const* const side = products ? &products->map.sides()[k] : nullptr;
             std::size_t const j = side ? side->parameter : k;
             bool const product = side && side->product;
-            auto const range = inward_text(shown((*box)[k]));
+            auto const range = inward_text((*box)[k]);
             if (!range) {
                 return;
             }
@@ -194,17 +195,17 @@ private:
         if (!found_.witness) {
             return;
         }
-        witness_view w;
+        named_witness w;
         for (std::size_t j = 0; j < names().size(); ++j) {
             w.parameters.push_back({names()[j], unit_of(j), found_.witness->parameters[j]});
         }
         for (std::size_t e = 0; e < problem_.experiments.size(); ++e) {
-            witness_view::start start{problem_.experiments[e].name, {}};
+            named_witness::start start{problem_.experiments[e].name, {}};
             for (std::size_t i = 0; i < about().states.size(); ++i) {
-                start.state.push_back(
+                start.states.push_back(
                     {about().states[i].name, about().states[i].unit, found_.witness->starts[e][i]});
             }
-            w.initial.push_back(std::move(start));
+            w.starts.push_back(std::move(start));
         }
         view_.witness = std::move(w);
     }
@@ -251,7 +252,7 @@ private:
         std::string box_text;
         for (std::size_t j = 0; j < names().size(); ++j) {
             box_text += (j == 0 ? "" : ", ") + names()[j] + " in " +
-                        outward_text(shown(motion_->parameters[j])) + unit_suffix(unit_of(j));
+                        outward_text(motion_->parameters[j]) + unit_suffix(unit_of(j));
         }
         view_.tube_meaning =
             std::string{"all motions of a box of parameters that is proved to explain the "
@@ -263,13 +264,13 @@ private:
     void add_pavings() {
         named_paving p{.paving = &found_.paving};
         for (std::size_t j = 0; j < names().size(); ++j) {
-            p.sides.push_back({names()[j], unit_of(j), shown(problem_.prior[j])});
+            p.sides.push_back({names()[j], unit_of(j), problem_.prior[j]});
             p.hull.push_back(view_.parameters[j].hull);
         }
         if (found_.witness) {
             p.witness = found_.witness->parameters;
         }
-        view_.pavings = projections(p, found_.entangled, options_.most_pavings);
+        view_.pavings = projections(p, found_.entangled, most_pavings);
     }
 
     void add_product_pavings() {
@@ -285,8 +286,8 @@ private:
             p.sides.push_back(
                 {side.product ? formula_text(side.product->formula) : names()[side.parameter],
                  side.product ? side.product->unit : unit_of(side.parameter),
-                 shown(map.problem().prior[k])});
-            p.hull.push_back(shown(hull[k]));
+                 map.problem().prior[k]});
+            p.hull.push_back(hull[k]);
             if (side.product) {
                 products.push_back(k);
             }
@@ -294,7 +295,7 @@ private:
         if (found_.witness) {
             p.witness = mid(map.forward(point_box(found_.witness->parameters)));
         }
-        view_.product_pavings = projections(p, products, options_.most_pavings);
+        view_.product_pavings = projections(p, products, most_pavings);
     }
 
     identification_problem const& problem_;

@@ -47,9 +47,10 @@ public:
             all[c].unit = about().channels[c].unit;
         }
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            measured_sample m{.time = samples[i].time, .value = shown(samples[i].bound)};
+            measured_sample m{.time = samples[i].time, .value = samples[i].bound};
             if (i < outputs.size()) {
-                m.enclosure = is_finite(shown(outputs[i])) ? shown(outputs[i]) : range{};
+                range const output = outputs[i];
+                if (is_finite(output)) m.enclosure = output;
             }
             m.state = state_of(i);
             all[samples[i].channel].measured.push_back(m);
@@ -98,8 +99,8 @@ private:
             if (keep_going_ && !keep_going_()) return;
             auto const y = look.over(step.from, interval(step.from, step.to), step.swept);
             for (std::size_t c = 0; c < all.size(); ++c) {
-                if (is_finite(shown(y[c]))) {
-                    all[c].tube.push_back({step.from, step.to, shown(y[c])});
+                if (is_finite(range{y[c]})) {
+                    all[c].tube.push_back({step.from, step.to, y[c]});
                 }
             }
         }
@@ -162,7 +163,7 @@ private:
                                         samples[k].time == samples[i].time;
                  ++k) {
                 if (samples[k].channel == y) {
-                    out.measured.push_back({shown(samples[i].bound), shown(samples[k].bound)});
+                    out.measured.push_back({samples[i].bound, samples[k].bound});
                 }
             }
         }

@@ -25,13 +25,13 @@ SIVID_DECL std::vector<bool> suspects(std::vector<double> const& residuals, std:
 
 } // namespace detail
 
-SIVID_DECL std::vector<scenario_data> compared_scenarios(identification_problem const& problem,
-                                                         approximate_fit const& base,
-                                                         approximate_fit const& after,
-                                                         bool holdout) {
+SIVID_DECL std::vector<compared_scenario> compared_scenarios(identification_problem const& problem,
+                                                             approximate_fit const& base,
+                                                             approximate_fit const& after,
+                                                             bool holdout) {
     auto const& about = problem.model.about;
     std::vector<double> const nothing;
-    std::vector<scenario_data> out;
+    std::vector<compared_scenario> out;
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& experiment = problem.experiments[e];
         auto const samples = sorted(experiment.measurements);
@@ -39,20 +39,27 @@ SIVID_DECL std::vector<scenario_data> compared_scenarios(identification_problem 
         auto const& then = e < after.residuals.size() ? after.residuals[e] : nothing;
         auto const suspect =
             detail::suspects(then.empty() ? before : then, samples.size(), experiment.outliers);
-        scenario_data s{.name = experiment.name, .holdout = holdout};
+        compared_scenario s{.name = experiment.name, .holdout = holdout};
         for (std::size_t c = 0; c < about.channels.size(); ++c) {
-            channel_data d{.name = about.channels[c].name, .unit = about.channels[c].unit};
+            comparison_series d{.name = about.channels[c].name, .unit = about.channels[c].unit};
             for (std::size_t i = 0; i < samples.size(); ++i) {
                 if (samples[i].channel != c) continue;
-                double const y = mid(samples[i].bound), half = rad(samples[i].bound);
-                d.times.push_back(samples[i].time);
-                d.values.push_back(y);
-                d.bounds.push_back(half);
-                d.outliers.push_back(suspect[i]);
-                if (i < before.size()) d.base.push_back(y + half * before[i]);
-                if (i < then.size()) d.after.push_back(y + half * then[i]);
+                double const t = samples[i].time;
+                d.measured.push_back(
+                    {.time = t,
+                     .value = samples[i].bound,
+                     .state = suspect[i] ? sample_state::suspect : sample_state::regular});
+                auto const add = [&](std::vector<double> const& residuals, std::vector<point>& line,
+                                     std::vector<point>& misfits) {
+                    if (i >= residuals.size()) return;
+                    line.push_back(
+                        {t, mid(samples[i].bound) + rad(samples[i].bound) * residuals[i]});
+                    if (!suspect[i]) misfits.push_back({t, std::fabs(residuals[i])});
+                };
+                add(before, d.before, d.misfit_before);
+                add(then, d.after, d.misfit_after);
             }
-            if (!d.times.empty()) s.channels.push_back(std::move(d));
+            if (!d.measured.empty()) s.channels.push_back(std::move(d));
         }
         out.push_back(std::move(s));
     }

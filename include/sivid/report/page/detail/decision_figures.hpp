@@ -23,8 +23,6 @@ namespace sivid::report {
 
 namespace detail {
 
-inline range range_of(interval const& x) { return {x.lower(), x.upper()}; }
-
 /// The tube in pieces for a drawing: each cell with its instants.
 inline motion_series series_of(std::vector<double> const& times, predicted_tube const& tube) {
     motion_series m;
@@ -49,8 +47,7 @@ inline std::vector<point> line_of(simulated_line const& l,
 
 /// One value as it was given; a range outward.
 inline std::string text_of(interval const& x) {
-    return std::nextafter(x.lower(), HUGE_VAL) < x.upper() ? outward_text(range_of(x))
-                                                           : given_text(mid(x));
+    return std::nextafter(x.lower(), HUGE_VAL) < x.upper() ? outward_text(x) : given_text(mid(x));
 }
 
 inline std::string named(std::vector<std::string> const& names, std::vector<double> const& x) {
@@ -168,7 +165,7 @@ inline void add_parameters(page& out, stored_prediction const& about,
         .rows = {}};
     auto const& states = about.problem.model.about.states;
     for (std::size_t i = 0; i < states.size(); ++i) {
-        range const start = range_of(about.problem.initial[i]);
+        range const start = about.problem.initial[i];
         auto const low = given_text(start.lo);
         starts.rows.push_back({states[i].name,
                                low == given_text(start.hi) ? low : given_text(start),

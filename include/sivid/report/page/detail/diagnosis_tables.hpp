@@ -16,9 +16,6 @@
 /// The key figures and tables of a diagnosis's page.
 namespace sivid::report {
 
-/// Candidates other than the model as it is.
-[[nodiscard]] SIVID_DECL std::size_t effects_tried(diagnosis_view const& v);
-
 [[nodiscard]] SIVID_DECL std::vector<card> diagnosis_cards(diagnosis_view const& v);
 
 /// The answer point by point, for the reader in a hurry.
@@ -41,10 +38,18 @@ inline constexpr std::string_view value_note =
     "explains the data; not narrowed: it is the prior itself.";
 
 /// A value with its mark.
-[[nodiscard]] SIVID_DECL std::string value_text(estimate_view const& e);
+/// @param verified  as for `estimate_words`
+[[nodiscard]] SIVID_DECL std::string value_text(named_estimate const& e, bool verified);
 
 /// Every constant of the model of the answer, its own and those of the effects.
 [[nodiscard]] SIVID_DECL table constants_table(diagnosis_view const& v);
+
+/// How well the hold-out data are met, before and after.
+[[nodiscard]] SIVID_DECL table holdout_table(diagnosis_view const& v, holdout_figures const& h);
+
+/// Candidates side by side on the hold-out data; only when there are several.
+[[nodiscard]] SIVID_DECL table holdout_candidates_table(diagnosis_view const& v,
+                                                        std::size_t most = 8);
 
 } // namespace sivid::report
 

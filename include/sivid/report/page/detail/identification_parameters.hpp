@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-/// The part of an identification's page about the parameters: hulls, combinations, pavings.
+/// The part of an identification's page about the parameters: hulls, combinations, pavings, the
+/// witness.
 namespace sivid::report::detail {
 
 SIVID_DECL void add_parameters(page& out, identification_view const& v);
@@ -24,6 +25,9 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v);
                                               paving_words const& words = {});
 
 SIVID_DECL void add_pavings(page& out, identification_view const& v);
+
+/// "The witness": its parameters and starts, exactly.
+SIVID_DECL void add_witness(page& out, named_witness const& w);
 
 } // namespace sivid::report::detail
 

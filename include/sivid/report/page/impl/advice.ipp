@@ -39,17 +39,16 @@ struct largest_misfit {
 };
 
 /// What is wrong with measurements that alone stand against the model.
-inline std::string instrument_advice(confined_view const& c) {
+inline std::string instrument_advice(confined_gap const& c) {
     auto const part = part_words(c);
     auto const stated = "state error bounds of " + part;
-    if (c.step > 0)
-        return stated + " that are wider by " + (c.cut_off ? "a" : "half a") +
+    if (c.steps)
+        return stated + " that are wider by " + (c.steps->cut_off ? "a" : "half a") +
                " step of its readings, or read it more finely";
-    if (c.grows == confined_view::growth::rate)
+    if (c.grows && c.grows->what == noise_growth::with::rate)
         return "look at the time stamps of " + part + ", or " + stated +
                " that grow with how fast it changes";
-    if (c.grows == confined_view::growth::value)
-        return "calibrate " + part + ", or " + stated + " that grow with what it shows";
+    if (c.grows) return "calibrate " + part + ", or " + stated + " that grow with what it shows";
     if (!c.channel.empty())
         return "look at the instrument of " + part + ", or " + stated + " that are " +
                inflation_text(c.factor) + " times as wide";
@@ -59,10 +58,10 @@ inline std::string instrument_advice(confined_view const& c) {
 /// Candidates that explain the data without the answer being a part of them.
 inline std::vector<std::string> other_explanations(diagnosis_view const& v) {
     std::vector<std::string> names;
-    for (candidate_view const& c : v.candidates) {
-        bool const explains =
-            c.state == candidate_state::explains ||
-            (c.state == candidate_state::open && is_fitted(c.fitted) && c.fitted <= 1);
+    for (cause const& c : v.causes) {
+        bool const explains = c.verdict == cause_verdict::explains ||
+                              (c.verdict == cause_verdict::undecided &&
+                               is_fitted(c.fitted_inflation) && c.fitted_inflation <= 1);
         bool const more = std::all_of(v.effects.begin(), v.effects.end(), [&c](auto const& e) {
             return std::find(c.effects.begin(), c.effects.end(), e) != c.effects.end();
         });
@@ -80,13 +79,13 @@ SIVID_DECL table change_table(diagnosis_view const& v) {
                         {"unit"},
                         {"of", column_kind::note}},
             .rows = {}};
-    candidate_view const* const c = answer_of(v);
+    cause const* const c = answer_of(v);
     if (c == nullptr) return t;
-    for (estimate_view const& e : c->parameters) {
-        auto const symbol = v.symbols.find(e.name);
-        if (symbol == v.symbols.end()) continue;
+    for (auto const& [e, verified] : parameters_of(*c)) {
+        auto const symbol = v.change.symbols.find(e.name);
+        if (symbol == v.change.symbols.end()) continue;
         auto const dot = e.name.rfind('.');
-        t.rows.push_back({symbol->second, value_text(e), hull_text(e),
+        t.rows.push_back({symbol->second, value_text(e, verified), hull_text(e),
                           kept_together(unit_text(e.unit)), name_of(e.name.substr(0, dot))});
     }
     return t;
@@ -103,7 +102,7 @@ SIVID_DECL table cost_table(diagnosis_view const& v) {
             .caption =
                 "Of best fits (estimates). With it: the largest misfit of any channel there, "
                 "in error bounds."};
-    for (compared_scenario const& s : v.scenarios) {
+    for (compared_scenario const& s : v.plots.scenarios) {
         detail::largest_misfit before, after;
         for (comparison_series const& c : s.channels) {
             before.look_at(c, c.misfit_before);
@@ -124,16 +123,16 @@ SIVID_DECL std::vector<std::string> advice_lines(diagnosis_view const& v) {
     auto const add = [&lines](std::string const& text) {
         if (!text.empty()) lines.push_back(capitalised(text) + (text.back() == '.' ? "" : "."));
     };
-    bool const answered = v.answer == answer_state::effects && !v.effects.empty();
-    if (v.gap == gap_state::absent)
+    bool const answered = v.answer == answer_kind::effects && !v.effects.empty();
+    if (v.gap == gap_verdict::none)
         add("nothing has to be added: the model explains all data of the fit");
-    if (v.answer == answer_state::open)
+    if (v.answer == answer_kind::open)
         add("give it more time: a larger --budget tries the candidates that are left");
     if (!answered)
         for (auto const& c : v.confined) add(detail::instrument_advice(c));
-    if (v.answer == answer_state::unexplained) {
+    if (v.answer == answer_kind::unexplained) {
         auto const& places =
-            v.remainder && !v.remainder->places.empty() ? v.remainder->places : v.places;
+            v.remainder && !v.remainder->where.empty() ? v.remainder->where : v.where;
         if (v.confined.empty() && !places.empty())
             add("look for an effect of your own in " +
                 std::string(places.front().kind == "equation" ? "the " : "") +
@@ -146,13 +145,14 @@ SIVID_DECL std::vector<std::string> advice_lines(diagnosis_view const& v) {
             add("nothing that was tried explains the data, and no place stands out: look at error "
                 "bounds and priors, or measure more channels");
     }
-    for (end_view const& e : v.at_ends) add(end_words(e));
+    for (constant_at_end const& e : v.at_ends) add(end_words(e));
     constexpr std::size_t most = 3;
     auto others = detail::other_explanations(v);
     if (answered && others.empty() && v.indistinguishable.empty()) {
         add("no other candidate was found to explain all data" +
-            (tried_all(v) ? std::string{", so no experiment has to tell explanations apart"}
-                          : " (" + tried_text(v) + "): a larger --budget tries the rest"));
+            (v.tried.complete()
+                 ? std::string{", so no experiment has to tell explanations apart"}
+                 : " (" + tried_text(v.tried) + "): a larger --budget tries the rest"));
     } else if (answered && !v.indistinguishable.empty()) {
         if (!v.next) add(alternatives_clause(v));
     } else if (answered) {
@@ -169,16 +169,16 @@ SIVID_DECL std::vector<std::string> advice_lines(diagnosis_view const& v) {
 
 SIVID_DECL void add_advice(page& out, diagnosis_view const& v) {
     auto const lines = advice_lines(v);
-    if (lines.empty() && v.formulas.empty()) return;
+    if (lines.empty() && v.change.lines.empty()) return;
     out.section("What to do now");
-    if (!v.formulas.empty()) {
+    if (!v.change.lines.empty()) {
         out.subsection("Add to the simulator");
         out.prose(
             "In this order: what is remembered, inputs and constants, rates (x' is that of x), "
             "sensors. Lines of one kind take effect together: on the right stands what was "
             "there before.");
         std::vector<std::string> formulas;
-        for (auto const& f : v.formulas) formulas.push_back(formula_text(f));
+        for (auto const& f : v.change.lines) formulas.push_back(formula_text(f));
         out.bullets(formulas);
         out.add(change_table(v));
         if (!v.constants.empty())

@@ -13,7 +13,7 @@ SIVID_DECL figure misfit_figure(diagnosis_view const& v) {
     };
     std::vector<pair> maps;
     double largest = 0;
-    for (compared_scenario const& s : v.scenarios) {
+    for (compared_scenario const& s : v.plots.scenarios) {
         pair p{s.name + (s.holdout ? " (held out)" : ""), misfit_map(s.channels, false),
                misfit_map(s.channels, true)};
         largest = std::max({largest, largest_value(p.before), largest_value(p.after)});
@@ -97,9 +97,9 @@ SIVID_DECL figure motion_figure(compared_scenario const& s) {
 SIVID_DECL figure candidate_figure(diagnosis_view const& v, std::size_t most) {
     auto const shown = foremost(v, most);
     std::vector<candidate_bar> bars;
-    for (candidate_view const* c : shown) {
-        bars.push_back(
-            {names_of(c->effects), c->state, c->inflation, c->fitted, c == answer_of(v)});
+    for (cause const* c : shown) {
+        bars.push_back({names_of(c->effects), c->verdict, c->inflation, c->fitted_inflation,
+                        c == answer_of(v)});
     }
     if (bars.empty()) return {};
     return {.panels = {draw_candidate_chart(bars)},
@@ -112,9 +112,9 @@ SIVID_DECL figure candidate_figure(diagnosis_view const& v, std::size_t most) {
                                    "times a factor below its solid end the candidate is refuted; "
                                    "times one above its hatched end it explains the data. Both "
                                    "are proved."} +
-                       (shown.size() < v.candidates.size()
+                       (shown.size() < v.causes.size()
                             ? " Shown are " + count_text(shown.size()) + " of " +
-                                  count_text(v.candidates.size()) + " candidates."
+                                  count_text(v.causes.size()) + " candidates."
                             : ""),
             .layout = panel_layout::wide};
 }

@@ -25,7 +25,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
     for (parameter_view const& p : v.parameters) {
         interval_row row{p.name, p.unit, p.prior, p.hull};
         if (v.witness) {
-            for (named_value const& w : v.witness->parameters) {
+            for (named_estimate const& w : v.witness->parameters) {
                 if (w.name == p.name) {
                     row.witness = w.value;
                 }
@@ -123,6 +123,16 @@ SIVID_DECL void add_pavings(page& out, identification_view const& v) {
                               " Regions are drawn with a hairline around them so that slivers can "
                               "be seen: the better region may look larger than it is by that much, "
                               "the outside never does."));
+}
+
+SIVID_DECL void add_witness(page& out, named_witness const& w) {
+    out.subsection("The witness");
+    out.prose("One point that was verified by validated integration: " + values_text(w.parameters) +
+              ".");
+    std::vector<std::string> starts;
+    for (named_witness::start const& s : w.starts)
+        starts.push_back("Scenario " + s.scenario + " starts at " + values_text(s.states) + ".");
+    out.bullets(starts);
 }
 
 } // namespace sivid::report::detail

@@ -28,29 +28,29 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88\xC2\xA0"
 [[nodiscard]] SIVID_DECL std::string capitalised(std::string text);
 
 /// "S4, 1.2 to 2 s"
-[[nodiscard]] SIVID_DECL std::string window_text(window_view const& w);
+[[nodiscard]] SIVID_DECL std::string window_text(time_window const& w);
 
 /// "yaw equation", "sensor r", "input delta"
-[[nodiscard]] SIVID_DECL std::string place_name(place_view const& p);
+[[nodiscard]] SIVID_DECL std::string place_name(suspected_place const& p);
 
 /// "-0.42 to -0.18 rad/s^2, proved"
-[[nodiscard]] SIVID_DECL std::string missing_text(place_view const& p);
+[[nodiscard]] SIVID_DECL std::string missing_text(suspected_place const& p);
 
 /// The formula of a law for a reader.
 [[nodiscard]] SIVID_DECL std::string law_text(std::string const& law);
 
 /// Where and how: "the yaw equation in S4, 1.2 to 2 s, lacks -0.42 to -0.18 rad/s^2 (proved)".
-[[nodiscard]] SIVID_DECL std::string place_clause(place_view const& p);
+[[nodiscard]] SIVID_DECL std::string place_clause(suspected_place const& p);
 
 /// One broken relation in plain words.
-[[nodiscard]] SIVID_DECL std::string relation_words(relation_view const& r);
+[[nodiscard]] SIVID_DECL std::string relation_words(broken_relation_report const& r);
 
 /// "v in S3": the measurements of a part.
-[[nodiscard]] SIVID_DECL std::string part_words(confined_view const& c);
+[[nodiscard]] SIVID_DECL std::string part_words(confined_gap const& c);
 
 /// "one parameter explains all data but those of v, whose bounds must grow by a factor of 1.61 to
 /// 1.66 (proved)"
-[[nodiscard]] SIVID_DECL std::string confined_clause(confined_view const& c);
+[[nodiscard]] SIVID_DECL std::string confined_clause(confined_gap const& c);
 
 } // namespace sivid::report
 

@@ -15,19 +15,19 @@ SIVID_DECL std::string capitalised(std::string text) {
     return text;
 }
 
-SIVID_DECL std::string window_text(window_view const& w) {
+SIVID_DECL std::string window_text(time_window const& w) {
     std::string const times = given_text(w.from) + " to " + given_text(w.to) + "\xC2\xA0s";
     return !(w.from < w.to) ? w.scenario : w.scenario.empty() ? times : w.scenario + ", " + times;
 }
 
-SIVID_DECL std::string place_name(place_view const& p) {
+SIVID_DECL std::string place_name(suspected_place const& p) {
     return p.kind == "equation" ? p.name + " equation"
            : p.kind.empty()     ? p.name
                                 : p.kind + ' ' + p.name;
 }
 
-SIVID_DECL std::string missing_text(place_view const& p) {
-    if (!is_empty(p.missing)) {
+SIVID_DECL std::string missing_text(suspected_place const& p) {
+    if (p.missing && !is_empty(*p.missing)) {
         return span_text(p.missing) + unit_suffix(p.unit) + " (proved)";
     }
     return p.estimate && std::isfinite(*p.estimate)
@@ -45,7 +45,7 @@ SIVID_DECL std::string law_text(std::string const& law) {
     return formula_text(out);
 }
 
-SIVID_DECL std::string place_clause(place_view const& p) {
+SIVID_DECL std::string place_clause(suspected_place const& p) {
     std::string const missing = missing_text(p);
     std::string const where = window_text(p.where);
     std::string out = "the " + place_name(p) + (where.empty() ? "" : " (" + where + ")");
@@ -56,7 +56,7 @@ SIVID_DECL std::string place_clause(place_view const& p) {
     return p.regime.empty() ? out : out + ", where " + p.regime + " (estimate)";
 }
 
-SIVID_DECL std::string relation_words(relation_view const& r) {
+SIVID_DECL std::string relation_words(broken_relation_report const& r) {
     constexpr std::size_t most = 4;
     std::string out = "The " + r.equation + " equation";
     out += r.sensors.empty()       ? ""
@@ -85,45 +85,44 @@ SIVID_DECL std::string relation_words(relation_view const& r) {
     return out;
 }
 
-SIVID_DECL std::string part_words(confined_view const& c) {
+SIVID_DECL std::string part_words(confined_gap const& c) {
     auto const where = enumeration(c.scenarios);
     return c.channel + (c.channel.empty() || where.empty() ? "" : " in ") + where;
 }
 
 namespace detail {
 
-/// Nothing where the readings are not too coarse.
-inline std::string step_clause(confined_view const& c) {
-    if (!(c.step > 0)) return "";
-    auto const unit = c.unit.empty() ? std::string{} : unit_suffix(c.unit);
-    return "; its readings come in steps of " + rounded_text(c.step, rounding::nearest) + unit +
-           ": bounds that are wider by " + (c.cut_off ? "a step" : "half a step") +
-           " explain all data (proved)";
+/// Of readings that are too coarse.
+inline std::string step_clause(reading_steps const& s) {
+    return "; its readings come in steps of " + rounded_text(s.size, rounding::nearest) +
+           unit_suffix(s.unit) + ": bounds that are wider by " +
+           (s.cut_off ? "a step" : "half a step") + " explain all data (proved)";
 }
 
 /// Nothing where bounds grow by a factor, and errors come one by one.
-inline std::string growth_clause(confined_view const& c) {
-    auto const size = inflation_text(c.coefficient);
-    std::string const grows =
-        c.grows == confined_view::growth::times ? ""
-        : c.grows == confined_view::growth::rate
-            ? "; likelier, they grow with how fast it changes, by " + size +
-                  " s times its rate (proved to explain): time stamps that are so far off would "
-                  "show that"
-            : "; likelier, they grow with what it shows, by " + size +
-                  " times its value (proved to explain)";
-    return c.together_for > 0 ? grows + "; its errors go together for " +
-                                    rounded_text(c.together_for, rounding::nearest) +
-                                    " s or so (estimate), as those of something slow do"
-                              : grows;
+inline std::string growth_clause(confined_gap const& c) {
+    std::string grows;
+    if (c.grows) {
+        auto const size = inflation_text(c.grows->coefficient);
+        grows = c.grows->what == noise_growth::with::rate
+                    ? "; likelier, they grow with how fast it changes, by " + size +
+                          " s times its rate (proved to explain): time stamps that are so far off "
+                          "would show that"
+                    : "; likelier, they grow with what it shows, by " + size +
+                          " times its value (proved to explain)";
+    }
+    return c.correlated ? grows + "; its errors go together for " +
+                              rounded_text(c.correlated->seconds, rounding::nearest) +
+                              " s or so (estimate), as those of something slow do"
+                        : grows;
 }
 
 } // namespace detail
 
-SIVID_DECL std::string confined_clause(confined_view const& c) {
+SIVID_DECL std::string confined_clause(confined_gap const& c) {
     return "one parameter explains all data but those of " + part_words(c) +
            ", whose bounds must grow by a factor of " + inflation_text(c.factor) + " (proved)" +
-           (c.step > 0 ? detail::step_clause(c) : detail::growth_clause(c));
+           (c.steps ? detail::step_clause(*c.steps) : detail::growth_clause(c));
 }
 
 } // namespace sivid::report
