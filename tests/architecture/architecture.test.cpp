@@ -117,20 +117,25 @@ TEST_CASE("planted breaches are found") {
         tree.header("paving/cellar/low.hpp", "");
         CHECK_THAT(tree.findings(), ContainsSubstring("room: include/sivid/paving/cellar/low.hpp"));
     }
-    SECTION("a door that serves one header") {
-        tree.header("paving/door.hpp", "");
-        tree.header("paving/search/one.hpp", "#include <sivid/paving/door.hpp>\n");
-        tree.umbrella();
+    SECTION("a public header that serves one header") {
         std::string const others =
             "#include <sivid/number/low.hpp>\n#include <sivid/space/high.hpp>\n";
-        tree.write("examples/main.cpp", others);
-        CHECK_THAT(tree.findings(), ContainsSubstring("door: include/sivid/paving/door.hpp"));
-        tree.write("examples/main.cpp", others + "#include <sivid/paving/door.hpp>\n");
-        CHECK(tree.findings() == "");
-        tree.write("examples/main.cpp", others);
-        tree.header("paving/search/two.hpp", "#include <sivid/paving/door.hpp>\n");
-        tree.umbrella();
-        CHECK(tree.findings() == "");
+        for (std::string const door : {"paving/door.hpp", "paving/response/door.hpp"}) {
+            tree.header(door, "");
+            tree.header("paving/search/detail/one.hpp", "#include <sivid/" + door + ">\n");
+            tree.umbrella();
+            tree.write("examples/main.cpp", others);
+            CHECK_THAT(tree.findings(), ContainsSubstring("door: include/sivid/" + door));
+            tree.write("examples/main.cpp", others + "#include <sivid/" + door + ">\n");
+            CHECK(tree.findings() == "");
+            tree.write("examples/main.cpp", others);
+            tree.header("paving/search/detail/two.hpp", "#include <sivid/" + door + ">\n");
+            tree.umbrella();
+            CHECK(tree.findings() == "");
+            tree.header("paving/search/detail/two.hpp", "");
+            tree.header("paving/search/detail/one.hpp", "");
+            tree.remove("include/sivid/" + door);
+        }
     }
     SECTION("the umbrella counts as upward") {
         tree.header("number/low.hpp", "#include <sivid/sivid.hpp>\n");

@@ -13,6 +13,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -157,7 +158,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/diagnosis/claim/detail/claim_review.hpp", {"fit/detail/campaign.hpp"}},
         {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/impl/diagnose.ipp", {"place/place_estimate.hpp"}},
+        {"sivid/diagnosis/impl/diagnose.ipp", {"place/detail/place_estimate.hpp"}},
         {"sivid/report/fill/detail/scenario_report.hpp", {"simulate/simulate.hpp"}},
         {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/detail/counterexample.hpp"}},
         {"sivid/verifier/claim/detail/fewest_outliers_check.hpp",
@@ -170,16 +171,37 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
            (starter != starters.end() && starter->second.count(what) > 0);
 }
 
-/// Whether a header declares options and nothing that runs: a test could but repeat its defaults.
+/// Whether a header declares types and nothing that runs: a test could but repeat their defaults.
 /// What they do is tested where they are used.
-inline bool only_options(std::string const& stem, std::vector<std::string> const& lines) {
-    if (stem != "options" && !(stem.size() > 8 && stem.substr(stem.size() - 8) == "_options"))
-        return false;
-    return std::none_of(lines.begin(), lines.end(), [](std::string const& line) {
+inline bool only_types(std::vector<std::string> const& lines) {
+    bool types = false;
+    for (auto const& line : lines) {
+        types = types || line.compare(0, 7, "struct ") == 0 || line.compare(0, 6, "class ") == 0;
         auto const code = line.substr(0, line.find("//"));
         auto const call = code.find('('); // within a default it is no function of its own
-        return call != code.npos && code.find('=') > call && code.find("std::function<") > call;
-    });
+        if (call != code.npos && code.find('=') > call && code.find("std::function<") > call &&
+            code.find(") = de") == code.npos) // default, or delete
+            return false;
+    }
+    return types;
+}
+
+/// Names that stand at the left margin of a header in namespace sivid, or one within it that
+/// programs see: its types and functions.
+inline std::set<std::string> declared_names(std::vector<std::string> const& lines) {
+    static std::regex const type{"^(struct|class|enum class|concept) (\\w+)"},
+        function{"^(\\[\\[nodiscard\\]\\] )?((SIVID_DECL|inline|constexpr) )+.*?\\b(\\w+)\\("},
+        inner{"^namespace .*detail"};
+    std::set<std::string> names;
+    bool within = false; // a namespace of internals
+    for (auto const& line : lines) {
+        std::smatch found;
+        if (line.compare(0, 10, "namespace ") == 0) within = std::regex_search(line, inner);
+        if (within) continue;
+        if (std::regex_search(line, found, type) && line.back() != ';') names.insert(found[2]);
+        if (std::regex_search(line, found, function)) names.insert(found[4]);
+    }
+    return names;
 }
 
 /// The header of the standard library that a name std::... comes from; "" for names that several
@@ -361,9 +383,10 @@ inline std::vector<finding> check(fs::path const& tree) {
     // compiled once, and in a cycle what they need would not be declared yet.
     std::map<std::string, std::vector<std::string>> graph;
     std::set<std::string> umbrella_members, core_headers;
-    std::map<std::string, std::set<std::string>> users;  // header -> headers that include it
-    std::vector<std::string> doors;                      // of floors that have rooms
-    std::set<std::string> listed, definitions_of_floors; // .ipp in sivid/impl, and all of them
+    std::map<std::string, std::set<std::string>> users;    // header -> headers that include it
+    std::map<std::string, std::set<std::string>> declared; // header -> what stands in it
+    std::vector<std::string> doors;                        // public headers of floors with rooms
+    std::set<std::string> listed, definitions_of_floors;   // .ipp in sivid/impl, and all of them
 
     for (auto const& entry : fs::recursive_directory_iterator{include / "sivid"}) {
         if (!entry.is_regular_file()) continue;
@@ -401,7 +424,7 @@ inline std::vector<finding> check(fs::path const& tree) {
             file == "odeint_stepping.hpp";
         if (!at_root && !internal && !optional && rank < core_floors) core_headers.insert(name);
 
-        if (!at_root && !internal && room.empty() && rooms.count(floor) > 0) doors.push_back(name);
+        if (!at_root && !internal && !optional && rooms.count(floor) > 0) doors.push_back(name);
         if (definitions && !at_root) definitions_of_floors.insert(name);
 
         auto const lines = lines_of(path);
@@ -457,11 +480,12 @@ inline std::vector<finding> check(fs::path const& tree) {
             for (auto const& header : missing_standard_headers(lines))
                 report("standard", "uses names of <" + header + "> without including it");
 
+        if (!definitions) declared[name] = declared_names(lines);
         if (!internal) {
             auto const place = fs::relative(path, include / "sivid").parent_path();
             auto const test = tree / "tests" / place / (path.stem().string() + ".test.cpp");
             if (!fs::exists(test)) {
-                if (!only_options(path.stem().string(), lines))
+                if (!only_types(lines))
                     report("test",
                            std::string{"no "}.append(fs::relative(test, tree).generic_string()));
             } else {
@@ -479,12 +503,29 @@ inline std::vector<finding> check(fs::path const& tree) {
             findings.push_back(
                 {"umbrella", "include/" + header, "not in sivid.hpp (scripts/update-umbrella)"});
 
-    if (auto const named = named_by_programs(tree); !named.empty())
+    auto const programs = names_in_programs(tree);
+    auto const any_of = [](std::set<std::string> const& names, std::set<std::string> const& of) {
+        return std::any_of(names.begin(), names.end(),
+                           [&](std::string const& n) { return of.count(n) > 0; });
+    };
+    if (!programs.included.empty())
         for (auto const& door : doors)
-            if (users[door].size() < 2 && named.count(door) == 0)
+            if (users[door].size() < 2 && programs.included.count(door) == 0 &&
+                !any_of(declared[door], programs.words))
                 findings.push_back({"door", "include/" + door,
-                                    "at the top of its floor, where no program and at most one "
-                                    "header includes it: it belongs into a room"});
+                                    "public, but no program and at most one header includes it: "
+                                    "it belongs into a room or its detail/"});
+    std::set<std::string> offered;
+    for (auto const& [header, names] : declared)
+        if (header.find("/detail/") == std::string::npos)
+            offered.insert(names.begin(), names.end());
+    for (auto const& [header, names] : declared)
+        for (auto const& name : names)
+            if (header.find("/detail/") != std::string::npos && offered.count(name) == 0 &&
+                header.find("_class.hpp") == std::string::npos && // of a public header
+                programs.qualified.count(name) > 0)
+                findings.push_back({"detail", "include/" + header,
+                                    "a program names " + name + ", which stands in detail/"});
 
     for (auto const& d : definitions_of_floors)
         if (fs::exists(include / "sivid/impl/src.hpp") && listed.count(d) == 0 &&

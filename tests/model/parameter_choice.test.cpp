@@ -3,7 +3,7 @@
 #include <sivid/model/parameter_choice.hpp>
 
 #include <sivid/model/bound_model.hpp>
-#include <sivid/model/change/substitution.hpp>
+#include <sivid/model/change/detail/substitution.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/structure/find_combinations.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An instrument of u and v mounted askew: the sway equation, exactly right, was called proved to
 // lack something, because no sensor was estimated to be wrong.
-#include <sivid/approximate/place/place_estimate.hpp>
+#include <sivid/approximate/place/detail/place_estimate.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
 #include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
 

@@ -9,7 +9,7 @@
 #include <sivid/cluster/worker.hpp>
 #include <sivid/cluster/worker_pool.hpp>
 #include <sivid/cluster/working_coordinator.hpp>
-#include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/candidate/screened.hpp>
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/io/result/problem_digest.hpp>

@@ -3,7 +3,7 @@
 #define SIVID_DECISION_EXPERIMENT_DESIGN_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/design/detail/design_goal.hpp>
+#include <sivid/decision/design/design_goal.hpp>
 #include <sivid/decision/promised_width.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/verification.hpp>

@@ -3,7 +3,7 @@
 #define SIVID_DECISION_PROMISED_WIDTH_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/design/detail/promise_types.hpp>
+#include <sivid/decision/design/promise_types.hpp>
 #include <sivid/decision/prediction_problem.hpp>
 #include <sivid/model/graph/graph.hpp>
 

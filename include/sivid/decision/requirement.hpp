@@ -3,7 +3,7 @@
 #define SIVID_DECISION_REQUIREMENT_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/decision/requirement/detail/requirement_types.hpp>
+#include <sivid/decision/requirement/requirement_types.hpp>
 #include <sivid/model/model.hpp>
 
 #include <string_view>

@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_DIAGNOSIS_EFFORT_HPP
 
 #include <sivid/paving/inflation.hpp>
-#include <sivid/paving/inflation/detail/observer_effort.hpp>
+#include <sivid/paving/inflation/observer_effort.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>

@@ -6,10 +6,10 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate/candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
-#include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/candidate/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
-#include <sivid/diagnosis/gap/detail/verified_inflation.hpp>
+#include <sivid/diagnosis/gap/verified_inflation.hpp>
 #include <sivid/diagnosis/hold_out/detail/holdout_results.hpp>
 #include <sivid/diagnosis/holdout.hpp>
 #include <sivid/model/effect.hpp>

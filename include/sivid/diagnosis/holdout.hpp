@@ -4,8 +4,8 @@
 
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
-#include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
+#include <sivid/diagnosis/candidate/screened.hpp>
 
 #include <cstddef>
 #include <optional>

@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_IDENTIFY_REMEMBERING_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate/detail/hull_search.hpp>
+#include <sivid/diagnosis/candidate/effect_hull_options.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>

@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_MANOEUVRE_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/candidate/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/manoeuvre.hpp>
 

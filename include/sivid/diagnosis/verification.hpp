@@ -6,7 +6,7 @@
 #include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/diagnosis/gap/detail/verified_inflation.hpp>
+#include <sivid/diagnosis/gap/verified_inflation.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
 #include <sivid/paving/judge/data_test.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_IMPORTING_IMPORT_WRITER_HPP
 #define SIVID_IMPORTING_IMPORT_WRITER_HPP
 
-#include <sivid/importing/scenario/detail/dataset_import.hpp>
+#include <sivid/importing/scenario/dataset_import.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_writer.hpp>
 #include <sivid/io/file_set.hpp>

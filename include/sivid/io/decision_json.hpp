@@ -9,7 +9,7 @@
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/rank.hpp>
 #include <sivid/decision/verification.hpp>
-#include <sivid/io/result/detail/stored_prediction.hpp>
+#include <sivid/io/result/stored_prediction.hpp>
 
 #include <map>
 #include <string>

@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/graph/detail/formula_text.hpp>
-#include <sivid/model/graph/linear_solution.hpp>
+#include <sivid/model/graph/detail/linear_solution.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/decimal.hpp>
 

@@ -6,8 +6,8 @@
 /// Refuses builds (detail/refused_flags.hpp) and machines on which interval arithmetic would not
 /// prove anything.
 
+#include <sivid/number/pack/detail/kernel_trial.hpp>
 #include <sivid/number/pack/detail/pack_target.hpp>
-#include <sivid/number/pack/kernel_trial.hpp>
 #include <sivid/number/rounding.hpp>
 #include <sivid/number/rounding/detail/refused_flags.hpp>
 

@@ -4,9 +4,9 @@
 
 #include <sivid/approximate/approximate_fit.hpp>
 #include <sivid/model/structure/combination.hpp>
-#include <sivid/paving/outliers/detail/fewest_outliers.hpp>
-#include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/divisors.hpp>
+#include <sivid/paving/outliers/fewest_outliers.hpp>
+#include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/run/run_reach.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/search/exclusion_proof.hpp>

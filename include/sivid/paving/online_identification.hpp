@@ -5,7 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/online/detail/online_update.hpp>
+#include <sivid/paving/online/online_update.hpp>
 
 #include <memory>
 #include <vector>

@@ -5,8 +5,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/outliers/detail/fewest_outliers.hpp>
-#include <sivid/paving/outliers/detail/outlier_search_options.hpp>
+#include <sivid/paving/outliers/fewest_outliers.hpp>
+#include <sivid/paving/outliers/outlier_search_options.hpp>
 
 #include <cstddef>
 #include <optional>

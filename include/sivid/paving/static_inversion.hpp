@@ -4,9 +4,9 @@
 
 #include <sivid/number/guard.hpp>
 #include <sivid/number/pack_traits.hpp>
+#include <sivid/paving/static/detail/static_survey.hpp>
 #include <sivid/paving/static/flat_paving.hpp>
 #include <sivid/paving/static/static_judge.hpp>
-#include <sivid/paving/static/static_survey.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>

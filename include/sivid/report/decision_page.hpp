@@ -5,9 +5,9 @@
 #include <sivid/compiled.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/verification.hpp>
-#include <sivid/io/result/detail/stored_prediction.hpp>
+#include <sivid/io/result/stored_prediction.hpp>
 #include <sivid/report/page.hpp>
-#include <sivid/report/page/detail/decision_page_options.hpp>
+#include <sivid/report/page/decision_page_options.hpp>
 
 #include <string>
 #include <vector>

@@ -7,7 +7,7 @@
 #include <sivid/io/identification_json.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/report/fill/detail/plane_channels.hpp>
+#include <sivid/report/fill/plane_channels.hpp>
 #include <sivid/report/identification_view.hpp>
 
 #include <algorithm>

@@ -3,12 +3,12 @@
 #define SIVID_VERIFIER_IDENTIFICATION_CHECK_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/result/detail/stored_identification.hpp>
 #include <sivid/io/result/same_problem.hpp>
+#include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/verifier/claim/detail/check_finding.hpp>
-#include <sivid/verifier/claim/detail/identification_check_options.hpp>
+#include <sivid/verifier/claim/check_finding.hpp>
+#include <sivid/verifier/claim/identification_check_options.hpp>
 
 #include <functional>
 #include <type_traits>

@@ -3,8 +3,8 @@
 #define SIVID_VERIFIER_PREDICT_FROM_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/result/detail/stored_identification.hpp>
-#include <sivid/io/result/detail/stored_prediction.hpp>
+#include <sivid/io/result/stored_identification.hpp>
+#include <sivid/io/result/stored_prediction.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <filesystem>

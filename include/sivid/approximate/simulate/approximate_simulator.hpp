@@ -3,8 +3,8 @@
 #define SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_SIMULATOR_HPP
 
 #include <sivid/approximate/simulate/approximate_model.hpp>
+#include <sivid/approximate/simulate/detail/named_steps.hpp>
 #include <sivid/approximate/simulate/detail/sensitive_rate.hpp>
-#include <sivid/approximate/simulate/named_steps.hpp>
 #include <sivid/approximate/simulate/simulation_mesh.hpp>
 
 #include <algorithm>

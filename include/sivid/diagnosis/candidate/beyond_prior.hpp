@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_BEYOND_PRIOR_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_BEYOND_PRIOR_HPP
 
-#include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/candidate/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>

@@ -9,8 +9,8 @@
 #include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
 #include <sivid/diagnosis/candidate/detail/effect_sets.hpp>
 #include <sivid/diagnosis/candidate/detail/episode_search.hpp>
-#include <sivid/diagnosis/candidate/detail/screened.hpp>
 #include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
+#include <sivid/diagnosis/candidate/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/work_limit.hpp>

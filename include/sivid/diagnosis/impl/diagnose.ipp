@@ -4,7 +4,7 @@
 
 #include <sivid/diagnosis/diagnose.hpp>
 
-#include <sivid/approximate/place/place_estimate.hpp>
+#include <sivid/approximate/place/detail/place_estimate.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>

@@ -6,7 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/result/certificates_csv.hpp>
-#include <sivid/io/result/detail/stored_identification.hpp>
+#include <sivid/io/result/stored_identification.hpp>
 #include <sivid/io/text/csv_table.hpp>
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/io/text/text_file.hpp>

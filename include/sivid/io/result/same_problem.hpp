@@ -4,7 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/input_error.hpp>
-#include <sivid/io/result/detail/stored_identification.hpp>
+#include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <filesystem>

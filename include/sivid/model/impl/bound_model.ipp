@@ -3,7 +3,7 @@
 #define SIVID_MODEL_IMPL_BOUND_MODEL_IPP
 
 #include <sivid/model/bound_model.hpp>
-#include <sivid/model/structure/resting_states.hpp>
+#include <sivid/model/structure/detail/resting_states.hpp>
 
 #include <algorithm>
 

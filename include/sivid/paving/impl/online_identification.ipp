@@ -7,8 +7,8 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/change/added_start.hpp>
 #include <sivid/paving/online/detail/online_paving.hpp>
-#include <sivid/paving/online/detail/online_update.hpp>
 #include <sivid/paving/online/detail/online_witness.hpp>
+#include <sivid/paving/online/online_update.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
 #include <sivid/paving/products/reduction.hpp>

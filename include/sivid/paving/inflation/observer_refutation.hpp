@@ -3,7 +3,7 @@
 #define SIVID_PAVING_INFLATION_OBSERVER_REFUTATION_HPP
 
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/inflation/detail/observer_effort.hpp>
+#include <sivid/paving/inflation/observer_effort.hpp>
 #include <sivid/paving/observer/detail/observer_bank.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>

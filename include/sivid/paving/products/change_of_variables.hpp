@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_PRODUCTS_CHANGE_OF_VARIABLES_HPP
 #define SIVID_PAVING_PRODUCTS_CHANGE_OF_VARIABLES_HPP
 
-#include <sivid/model/change/substitution.hpp>
+#include <sivid/model/change/detail/substitution.hpp>
 #include <sivid/model/graph/recorded_map.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>

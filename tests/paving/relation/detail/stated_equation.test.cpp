@@ -2,7 +2,7 @@
 #include <sivid/paving/relation/detail/stated_equation.hpp>
 
 #include <sivid/model/change/detail/smoothed.hpp>
-#include <sivid/model/change/substitution.hpp>
+#include <sivid/model/change/detail/substitution.hpp>
 #include <sivid/model/effects.hpp>
 
 #include "paving/relation/two_links.hpp"

@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_PLACE_IMPL_PLACE_ESTIMATE_IPP
 #define SIVID_APPROXIMATE_PLACE_IMPL_PLACE_ESTIMATE_IPP
 
-#include <sivid/approximate/place/place_estimate.hpp>
+#include <sivid/approximate/place/detail/place_estimate.hpp>
 
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>

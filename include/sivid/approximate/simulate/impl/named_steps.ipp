@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_IMPL_NAMED_STEPS_IPP
 #define SIVID_APPROXIMATE_SIMULATE_IMPL_NAMED_STEPS_IPP
 
-#include <sivid/approximate/simulate/named_steps.hpp>
+#include <sivid/approximate/simulate/detail/named_steps.hpp>
 
 #include <sivid/approximate/simulate/odeint_stepping.hpp>
 #include <sivid/compiled.hpp>

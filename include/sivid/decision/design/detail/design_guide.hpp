@@ -2,8 +2,8 @@
 #ifndef SIVID_DECISION_DESIGN_DETAIL_DESIGN_GUIDE_HPP
 #define SIVID_DECISION_DESIGN_DETAIL_DESIGN_GUIDE_HPP
 
-#include <sivid/decision/design/detail/promise_types.hpp>
 #include <sivid/decision/design/detail/small_run.hpp>
+#include <sivid/decision/design/promise_types.hpp>
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/linear_program/constraint_blocks.hpp>

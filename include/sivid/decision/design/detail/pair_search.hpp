@@ -2,7 +2,7 @@
 #ifndef SIVID_DECISION_DESIGN_DETAIL_PAIR_SEARCH_HPP
 #define SIVID_DECISION_DESIGN_DETAIL_PAIR_SEARCH_HPP
 
-#include <sivid/decision/design/detail/promise_types.hpp>
+#include <sivid/decision/design/promise_types.hpp>
 #include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/number/rounding.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_DECISION_DESIGN_DETAIL_SMALL_RUN_HPP
 #define SIVID_DECISION_DESIGN_DETAIL_SMALL_RUN_HPP
 
-#include <sivid/decision/design/detail/promise_types.hpp>
+#include <sivid/decision/design/promise_types.hpp>
 #include <sivid/decision/motion/detail/motion_cover.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/requirement/robustness.hpp>

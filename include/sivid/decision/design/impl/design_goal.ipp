@@ -2,7 +2,7 @@
 #ifndef SIVID_DECISION_DESIGN_IMPL_DESIGN_GOAL_IPP
 #define SIVID_DECISION_DESIGN_IMPL_DESIGN_GOAL_IPP
 
-#include <sivid/decision/design/detail/design_goal.hpp>
+#include <sivid/decision/design/design_goal.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/requirement/detail/requirement_numbers.hpp>

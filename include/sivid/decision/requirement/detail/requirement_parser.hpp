@@ -3,7 +3,7 @@
 #define SIVID_DECISION_REQUIREMENT_DETAIL_REQUIREMENT_PARSER_HPP
 
 #include <sivid/decision/requirement/detail/requirement_numbers.hpp>
-#include <sivid/decision/requirement/detail/requirement_types.hpp>
+#include <sivid/decision/requirement/requirement_types.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 

@@ -2,7 +2,7 @@
 #ifndef SIVID_DECISION_REQUIREMENT_DETAIL_REQUIREMENT_WORDS_HPP
 #define SIVID_DECISION_REQUIREMENT_DETAIL_REQUIREMENT_WORDS_HPP
 
-#include <sivid/decision/requirement/detail/requirement_types.hpp>
+#include <sivid/decision/requirement/requirement_types.hpp>
 
 #include <algorithm>
 #include <array>

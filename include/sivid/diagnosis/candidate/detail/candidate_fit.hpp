@@ -5,7 +5,7 @@
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/diagnosis/candidate/beyond_prior.hpp>
-#include <sivid/diagnosis/candidate/detail/screened.hpp>
+#include <sivid/diagnosis/candidate/screened.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,8 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_EFFECT_HULLS_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate/detail/hull_search.hpp>
+#include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
+#include <sivid/diagnosis/candidate/effect_hull_options.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/space/box.hpp>

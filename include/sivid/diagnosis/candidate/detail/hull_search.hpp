@@ -3,11 +3,11 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_HULL_SEARCH_HPP
 
 #include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
+#include <sivid/diagnosis/candidate/effect_hull_options.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/structure/combination.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/data_test.hpp>
-#include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/paving/judge/detail/equation_aided_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
@@ -17,23 +17,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sivid {
-
-struct effect_hull_options {
-    double seconds = 10;
-    std::size_t boxes = 4000; ///< of the last search; a slice gets a share of them
-    /// A delay, a play or a threshold is told no more finely than this share of its prior, where it
-    /// is not a parameter.
-    double accuracy = 1.0 / 128;
-    std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
-    data_test_options test{};
-};
 
 /// What problems leave of their priors, one after the other, within one limit for all.
 class hull_search {

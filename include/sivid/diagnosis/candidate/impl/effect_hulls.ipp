@@ -5,6 +5,7 @@
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 
 #include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/diagnosis/candidate/detail/hull_search.hpp>
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
 

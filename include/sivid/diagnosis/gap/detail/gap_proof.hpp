@@ -6,7 +6,7 @@
 #include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
-#include <sivid/diagnosis/gap/detail/verified_inflation.hpp>
+#include <sivid/diagnosis/gap/verified_inflation.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/inflation/observer_refutation.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_MODEL_GRAPH_IMPL_LINEAR_SOLUTION_IPP
 #define SIVID_MODEL_GRAPH_IMPL_LINEAR_SOLUTION_IPP
 
-#include <sivid/model/graph/linear_solution.hpp>
+#include <sivid/model/graph/detail/linear_solution.hpp>
 
 #include <sivid/model/graph/detail/fraction_coefficients.hpp>
 #include <sivid/model/graph/graph_range.hpp>

@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_PACK_IMPL_KERNEL_TRIAL_IPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/pack/detail/kernel_trial.hpp>
 #include <sivid/number/pack/detail/known_values.hpp>
-#include <sivid/number/pack/kernel_trial.hpp>
 #include <sivid/number/pack_traits.hpp>
 
 #include <cstddef>

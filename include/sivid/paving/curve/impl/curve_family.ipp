@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_CURVE_IMPL_CURVE_FAMILY_IPP
 #define SIVID_PAVING_CURVE_IMPL_CURVE_FAMILY_IPP
 
-#include <sivid/paving/curve/curve_family.hpp>
+#include <sivid/paving/curve/detail/curve_family.hpp>
 
 #include <sivid/model/series/taylor_arithmetic.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>

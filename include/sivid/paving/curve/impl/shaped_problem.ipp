@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_CURVE_IMPL_SHAPED_PROBLEM_IPP
 #define SIVID_PAVING_CURVE_IMPL_SHAPED_PROBLEM_IPP
 
-#include <sivid/paving/curve/shaped_problem.hpp>
+#include <sivid/paving/curve/detail/shaped_problem.hpp>
 
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/bound_model.hpp>

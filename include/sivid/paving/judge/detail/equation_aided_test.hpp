@@ -5,7 +5,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/paving/judge/data_test.hpp>
-#include <sivid/paving/observer/observer_contraction.hpp>
+#include <sivid/paving/observer/detail/observer_contraction.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
 #include <sivid/paving/run/detail/lending_pool.hpp>
 #include <sivid/paving/set_test.hpp>

@@ -5,7 +5,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
-#include <sivid/paving/curve/shaped_problem.hpp>
+#include <sivid/paving/curve/detail/shaped_problem.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_OBSERVER_IMPL_OBSERVER_CONTRACTION_IPP
 #define SIVID_PAVING_OBSERVER_IMPL_OBSERVER_CONTRACTION_IPP
 
-#include <sivid/paving/observer/observer_contraction.hpp>
+#include <sivid/paving/observer/detail/observer_contraction.hpp>
 
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>

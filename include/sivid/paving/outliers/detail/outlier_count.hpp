@@ -5,7 +5,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/contract/detail/cut_contraction.hpp>
 #include <sivid/paving/judge/detail/response_search.hpp>
-#include <sivid/paving/outliers/detail/outlier_search_options.hpp>
+#include <sivid/paving/outliers/outlier_search_options.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>

@@ -5,7 +5,7 @@
 #include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/io/explaining_motion.hpp>
-#include <sivid/report/fill/detail/plane_channels.hpp>
+#include <sivid/report/fill/plane_channels.hpp>
 #include <sivid/report/identification_view.hpp>
 
 #include <algorithm>

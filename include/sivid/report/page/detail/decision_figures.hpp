@@ -4,12 +4,12 @@
 
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/requirement.hpp>
-#include <sivid/io/result/detail/stored_prediction.hpp>
+#include <sivid/io/result/stored_prediction.hpp>
 #include <sivid/report/draw/detail/motion_plot.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/page.hpp>
-#include <sivid/report/page/detail/decision_page_options.hpp>
+#include <sivid/report/page/decision_page_options.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>

@@ -3,10 +3,10 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_IDENTIFIABILITY_CHECK_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/io/result/detail/stored_identification.hpp>
+#include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identifiability.hpp>
-#include <sivid/verifier/claim/detail/check_finding.hpp>
+#include <sivid/verifier/claim/check_finding.hpp>
 
 #include <functional>
 

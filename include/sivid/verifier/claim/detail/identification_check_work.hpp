@@ -2,16 +2,16 @@
 #ifndef SIVID_VERIFIER_CLAIM_DETAIL_IDENTIFICATION_CHECK_WORK_HPP
 #define SIVID_VERIFIER_CLAIM_DETAIL_IDENTIFICATION_CHECK_WORK_HPP
 
-#include <sivid/io/result/detail/stored_identification.hpp>
-#include <sivid/verifier/claim/detail/check_finding.hpp>
+#include <sivid/io/result/stored_identification.hpp>
+#include <sivid/verifier/claim/check_finding.hpp>
 #include <sivid/verifier/claim/detail/drawing_check.hpp>
 #include <sivid/verifier/claim/detail/fewest_outliers_check.hpp>
 #include <sivid/verifier/claim/detail/forced_outlier_check.hpp>
 #include <sivid/verifier/claim/detail/identifiability_check.hpp>
-#include <sivid/verifier/claim/detail/identification_check_options.hpp>
 #include <sivid/verifier/claim/detail/identification_consistency.hpp>
 #include <sivid/verifier/claim/detail/paving_check.hpp>
 #include <sivid/verifier/claim/detail/product_check.hpp>
+#include <sivid/verifier/claim/identification_check_options.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>

@@ -3,11 +3,11 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_IDENTIFICATION_CONSISTENCY_HPP
 
 #include <sivid/io/result/detail/product_formula.hpp>
-#include <sivid/io/result/detail/stored_identification.hpp>
 #include <sivid/io/result/problem_digest.hpp>
+#include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/space/box_cover.hpp>
-#include <sivid/verifier/claim/detail/check_finding.hpp>
+#include <sivid/verifier/claim/check_finding.hpp>
 #include <sivid/verifier/claim/detail/stated_range.hpp>
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 #include <sivid/approximate/fit/detail/counterexample.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/number/text/nearest_text.hpp>
-#include <sivid/verifier/claim/detail/identification_check_options.hpp>
 #include <sivid/verifier/claim/detail/identification_consistency.hpp>
 #include <sivid/verifier/claim/detail/point_judgement.hpp>
+#include <sivid/verifier/claim/identification_check_options.hpp>
 #include <sivid/verifier/proof/detail/certificate.hpp>
 #include <sivid/verifier/proof/detail/exclusion_check.hpp>
 

@@ -3,7 +3,7 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_STORED_PRODUCTS_HPP
 
 #include <sivid/io/result/detail/product_formula.hpp>
-#include <sivid/io/result/detail/stored_identification.hpp>
+#include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/structure/homogeneity.hpp>
 

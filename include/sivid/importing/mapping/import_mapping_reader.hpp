@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_MAPPING_IMPORT_MAPPING_READER_HPP
+#define SIVID_IMPORTING_MAPPING_IMPORT_MAPPING_READER_HPP
+
+#include <sivid/importing/detail/import_mapping.hpp>
+#include <sivid/importing/mapping/detail/required_keys.hpp>
+#include <sivid/importing/mapping/detail/source_form_reader.hpp>
+#include <sivid/importing/mapping/detail/window_mapping_reader.hpp>
+#include <sivid/io/dataset/mapping_entries.hpp>
+#include <sivid/io/dataset_effects.hpp>
+#include <sivid/io/text/json_document.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// Reads a file in the format sivid-mapping-1; users call read_import_mapping.
+class import_mapping_reader {
+public:
+    explicit import_mapping_reader(std::filesystem::path file) : file_{std::move(file)} {}
+
+    [[nodiscard]] import_mapping read() {
+        auto const root = read_json(file_);
+        if (root.at("format").string() != "sivid-mapping-1")
+            root.at("format").fail(
+                text_of("unknown format ", in_quotes(root.at("format").string())),
+                "this version reads sivid-mapping-1");
+        root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
+                         "effects", "defaults", "scenarios"});
+        require_mapping_keys(root);
+        import_mapping result;
+        result.file = file_;
+        result.id = root.at("id").string();
+        result.model = root.at("model").string();
+        read_constants(root, result);
+        auto const& fraction = root.at("max_outlier_fraction");
+        result.max_outlier_fraction = fraction.number();
+        if (result.max_outlier_fraction.is_negative() ||
+            !(result.max_outlier_fraction < *exact_decimal::parse("1")))
+            fraction.fail("the fraction is outside [0, 1)",
+                          "state the share of outliers, such as 0.05");
+        if (auto const* list = root.find("effects")) result.effects = read_dataset_effects(*list);
+        if (auto const* d = root.find("defaults")) {
+            d->allow_only({"role", "file", "source", "time", "duration", "interpolation", "inputs",
+                           "channels", "initial", "initial_after_break", "windows", "thin"});
+            defaults_ = d;
+        }
+        for (auto const& entry : root.at("scenarios").elements()) {
+            auto next = read_scenario(entry);
+            for (auto const& s : result.scenarios)
+                if (s.name == next.name)
+                    entry.at("name").fail("the name appears twice", "give each its own name");
+            result.scenarios.push_back(std::move(next));
+        }
+        check_together(root.at("scenarios"), result);
+        return result;
+    }
+
+private:
+    static void read_constants(json_value const& root, import_mapping& result) {
+        auto const& list = root.at("parameters");
+        for (std::size_t i = 0; i < list.members().size(); ++i) {
+            auto const& entry = list.members()[i];
+            entry.allow_only({"prior", "unit"});
+            auto const* unit = entry.find("unit");
+            result.parameters.push_back({list.name_of(i), unit ? unit->any_string() : "",
+                                         mapping_entries::range(entry.at("prior"))});
+        }
+        if (result.parameters.empty())
+            list.fail("no parameter is unknown", "list at least one constant with its prior");
+        auto const* fixed = root.find("fixed");
+        if (fixed == nullptr) return;
+        for (std::size_t i = 0; i < fixed->members().size(); ++i) {
+            auto const& entry = fixed->members()[i];
+            for (auto const& p : result.parameters)
+                if (p.name == fixed->name_of(i))
+                    entry.fail(in_quotes(p.name) + " is fixed and a parameter",
+                               "keep one of the two");
+            auto const value = entry.number();
+            result.fixed.push_back({fixed->name_of(i), value, *enclose(value)});
+        }
+    }
+
+    /// The scenario's own entry, or that of the defaults, or nullptr.
+    [[nodiscard]] json_value const* either(json_value const& scenario, char const* key) const {
+        if (auto const* own = scenario.find(key)) return own;
+        return defaults_ == nullptr ? nullptr : defaults_->find(key);
+    }
+    [[nodiscard]] json_value const& need(json_value const& scenario, char const* key) const {
+        auto const* found = either(scenario, key);
+        return found == nullptr ? scenario.at(key) : *found; // at() says that it is missing
+    }
+
+    [[nodiscard]] scenario_mapping read_scenario(json_value const& entry) const {
+        entry.allow_only({"name", "role", "file", "source", "time", "duration", "interpolation",
+                          "inputs", "channels", "initial", "initial_after_break", "windows",
+                          "thin"});
+        scenario_mapping result;
+        result.place = entry.place();
+        result.name = mapping_entries::name(entry.at("name"), entry.at("name").string());
+        if (auto const* role = either(entry, "role"); role && role->is_second_of("fit", "holdout"))
+            result.role = scenario_role::holdout;
+        std::filesystem::path const stated{need(entry, "file").string()};
+        result.file = stated.is_absolute() ? stated : file_.parent_path() / stated;
+        if (auto const* form = either(entry, "source")) result.form = read_source_form(*form);
+        bool const serial = result.form.from == source_form::kind::serial;
+        result.time = read_time_mapping(need(entry, "time"), serial);
+        bool const splits =
+            result.form.gap == break_policy::split || result.form.restart == break_policy::split;
+        if (splits && !result.time.from_first)
+            need(entry, "time")
+                .fail("a log that is split has no common offset of the time",
+                      "state \"offset\": \"first\"");
+        if (auto const* duration = either(entry, "duration")) {
+            result.duration = duration->number();
+            if (!(*nearest(*result.duration) > 0))
+                duration->fail("the duration is not above 0", "state it in seconds");
+        }
+        if (auto const* between = either(entry, "interpolation");
+            between && between->is_second_of("linear", "hold"))
+            result.between = interpolation::hold;
+        if (auto const* inputs = either(entry, "inputs")) result.inputs = quantities(*inputs, true);
+        auto const& channels = need(entry, "channels");
+        result.channels = quantities(channels, false);
+        if (result.channels.empty())
+            channels.fail("no channel is measured", "map at least one channel of the model");
+        if (auto const* initial = either(entry, "initial"))
+            result.initial = read_starts(*initial, result.channels);
+        if (auto const* after = either(entry, "initial_after_break"))
+            result.initial_after_break = read_starts(*after, result.channels);
+        if (auto const* thin = either(entry, "thin"))
+            result.thin = mapping_entries::whole(*thin, 1, 1'000'000);
+        if (auto const* windows = either(entry, "windows")) {
+            result.windows = read_window_mapping(*windows, result.channels);
+            if (result.role == scenario_role::holdout && windows->find("holdout") != nullptr)
+                windows->at("holdout").fail("the whole scenario is held out",
+                                            "remove this, or make the scenario's role fit");
+        }
+        return result;
+    }
+
+    static std::vector<quantity_mapping> quantities(json_value const& list, bool inputs) {
+        std::vector<quantity_mapping> result;
+        for (std::size_t i = 0; i < list.members().size(); ++i) {
+            auto const& entry = list.members()[i];
+            auto q = read_quantity_mapping(entry, list.name_of(i), inputs);
+            for (auto const& other : result)
+                if (other.name == q.name + "_err" || q.name == other.name + "_err")
+                    entry.fail(text_of("the name ", in_quotes(q.name), " and ",
+                                       in_quotes(other.name), " cannot be told apart in a table"),
+                               "rename one of them");
+            result.push_back(std::move(q));
+        }
+        return result;
+    }
+
+    static void check_together(json_value const& list, import_mapping const& mapping) {
+        if (std::none_of(mapping.scenarios.begin(), mapping.scenarios.end(),
+                         [](auto const& s) { return s.role == scenario_role::fit; }))
+            list.fail("no scenario has the role fit", "identification needs at least one");
+        for (std::size_t i = 0; i < mapping.scenarios.size(); ++i) {
+            auto const& first = mapping.scenarios.front().inputs;
+            auto const& these = mapping.scenarios[i].inputs;
+            bool same = first.size() == these.size();
+            for (auto const& q : first)
+                same = same && std::any_of(these.begin(), these.end(),
+                                           [&](auto const& p) { return p.name == q.name; });
+            if (!same)
+                list.elements()[i].fail("the inputs differ from those of the first scenario",
+                                        "map every input of the model in every scenario");
+        }
+    }
+
+    std::filesystem::path file_;
+    json_value const* defaults_ = nullptr;
+};
+
+/// Reads a mapping.
+/// @throws input_error  for the first defect, with file, pointer and remedy
+[[nodiscard]] inline import_mapping read_import_mapping(std::filesystem::path const& file) {
+    return import_mapping_reader{file}.read();
+}
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_MAPPING_IMPORT_MAPPING_READER_HPP

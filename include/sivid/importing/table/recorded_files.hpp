@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_TABLE_RECORDED_FILES_HPP
+#define SIVID_IMPORTING_TABLE_RECORDED_FILES_HPP
+
+#include <sivid/importing/table/detail/matlab_table.hpp>
+#include <sivid/importing/table/detail/serial_log.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// How an import gets at what is in files.
+struct import_tools {
+    inflate_function inflate; ///< for compressed MATLAB files
+    std::function<std::string(std::filesystem::path const&)> read = read_text;
+};
+
+/// What a recorded file holds.
+struct recorded_stretches {
+    scenario_mapping const* by = nullptr; ///< the first scenario that reads it so
+    std::vector<recorded_table> stretches;
+    std::vector<import_protocol::note> notes;
+    std::size_t lines = 0;
+};
+
+/// Reads the files of a mapping, each once for all scenarios that take the same columns in the same
+/// form, and keeps what a later one asks for.
+class recorded_files {
+public:
+    /// @param mapping  outlives this
+    recorded_files(import_mapping const& mapping, import_tools tools)
+        : mapping_{mapping}, tools_{std::move(tools)} {}
+
+    /// @param s  a scenario of the mapping; they are asked for in their order
+    /// @returns  valid until the next call
+    /// @throws input_error
+    [[nodiscard]] recorded_stretches const& read(scenario_mapping const& s) {
+        std::erase_if(kept_, [&](recorded_stretches const& r) { // no scenario from here on asks
+            return std::none_of(&s, mapping_.scenarios.data() + mapping_.scenarios.size(),
+                                [&](auto const& later) { return same(later, *r.by); });
+        });
+        for (auto const& r : kept_)
+            if (same(*r.by, s)) return r;
+        recorded_stretches result{&s, {}, {}, 0};
+        import_protocol protocol;
+        auto text = tools_.read(s.file);
+        if (s.form.from == source_form::kind::matlab) {
+            matlab_file const file{s.file.string(), std::move(text), tools_.inflate};
+            result.stretches.push_back(read_matlab_table(s, file, protocol));
+            result.lines = result.stretches.back().rows.size();
+        } else {
+            if (s.form.from == source_form::kind::csv)
+                result.stretches.push_back(read_recorded_table(s, text, protocol));
+            else
+                result.stretches = read_serial_log(s, text, protocol);
+            result.lines = lines_of(text).size();
+        }
+        result.notes = protocol.notes();
+        return kept_.emplace_back(std::move(result));
+    }
+
+private:
+    static bool same(scenario_mapping const& a, scenario_mapping const& b) {
+        return a.file == b.file && a.form == b.form && a.time.column == b.time.column &&
+               a.time.sample_time == b.time.sample_time && a.time.unit == b.time.unit &&
+               a.time.counter_bits == b.time.counter_bits && columns_of(a) == columns_of(b);
+    }
+
+    import_mapping const& mapping_;
+    import_tools tools_;
+    std::list<recorded_stretches> kept_;
+};
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_TABLE_RECORDED_FILES_HPP

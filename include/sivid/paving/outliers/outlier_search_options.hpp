@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_OUTLIERS_OUTLIER_SEARCH_OPTIONS_HPP
+#define SIVID_PAVING_OUTLIERS_OUTLIER_SEARCH_OPTIONS_HPP
+
+#include <sivid/paving/judge/data_test_options.hpp>
+
+#include <cstddef>
+#include <functional>
+
+namespace sivid {
+
+struct outlier_search_options {
+    data_test_options test{};
+    double seconds = 10;
+    std::size_t boxes = 20'000;
+    /// Asked by any thread; false ends the search with what is proved until then. It stays false.
+    std::function<bool()> keep_going = nullptr;
+};
+
+} // namespace sivid
+
+#endif

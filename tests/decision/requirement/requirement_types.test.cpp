@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/decision/requirement.hpp>
+#include <sivid/decision/requirement/requirement_types.hpp>
+
+#include "support/catch.hpp"
+
+#include <string>
+
+using Catch::Matchers::ContainsSubstring;
+
+TEST_CASE("an error in a requirement says where it is, what is wrong, and what to do") {
+    sivid::requirement_error const e("requirement", "u >", 3, "the text ends", "write a number");
+    CHECK(e.position() == 3);
+    std::string const text = e.what();
+    CHECK_THAT(text, ContainsSubstring("requirement") && ContainsSubstring("u >") &&
+                         ContainsSubstring("the text ends") && ContainsSubstring("write a number"));
+}

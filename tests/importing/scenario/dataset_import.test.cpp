@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <sivid/importing/scenario/dataset_import.hpp>
+
+#include "io/import_support.hpp"
+
+#include <cmath>
+
+using namespace sivid;
+using namespace io_support;
+
+namespace {
+
+/// A smooth level with 0.01 of noise on a grid of 0.01, every 10 ms.
+std::string smooth(unsigned n, double noise, unsigned seed = 1) {
+    std::mt19937_64 random{seed};
+    std::uniform_real_distribution<double> draw{-noise, noise};
+    std::string text = "time,pump,level\n";
+    for (unsigned i = 0; i < n; ++i)
+        text += std::to_string(10 * i) + ",1," +
+                exact_decimal::rounded(100 * std::sin(0.02 * i) + draw(random), 2).text() + "\n";
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("decimals are scaled exactly") {
+    auto const r = import_csv(csv_mapping, small_table);
+    auto const& s = r.data.scenarios.at(0);
+    REQUIRE(s.stated.size() == 3);
+    CHECK(s.stated[1].value == dec("1.01"));
+    CHECK(s.stated[2].value == dec("1.035"));
+    CHECK(s.stated[2].error == dec("0.02"));
+    CHECK(s.measurements[1].time == 0.1);
+    CHECK(s.inputs.at(0).signal.values() == std::vector<double>{1.5, 1.5, 2.5, 2.5});
+    CHECK(s.inputs.at(0).error.empty());
+    CHECK(r.data.fixed.size() == 1);
+    CHECK(s.initial.at(0).stated->upper == dec("1"));
+    CHECK(r.protocol.scenarios.at(0).measurements == 3);
+    CHECK(r.protocol.scenarios.at(0).file == "a.csv");
+}
+
+TEST_CASE(
+    "an input that steps between two times that are one double, or in one tick, has stepped") {
+    // u = 0 until 1.01 s, then 5; what is measured is the level + u.
+    auto const hold = replaced(csv_mapping, "\"linear\"", "\"hold\"");
+    auto const table =
+        "time,pump,level\n0,0,100\n1010,0,100\n1010.0000000000001,5,105\n2000,5,105\n";
+    auto const check = [](imported_dataset const& r, double at) {
+        auto const& s = r.data.scenarios.at(0);
+        auto const& u = s.inputs.at(0).signal;
+        CHECK(u.approximate(at - 0.001) == 0);
+        CHECK(u.approximate(at) == 5);
+        CHECK(u.approximate(at + 0.5) == 5);
+        REQUIRE(s.measurements.size() == 3);
+        CHECK(s.measurements[1].time == at);
+        return mid(s.measurements[1].bound);
+    };
+    CHECK_THAT(check(import_csv(hold, table), 1.01), WithinAbs(1.05, 1e-9));
+    CHECK_THAT(refusal(csv_mapping, table),
+               ContainsSubstring("a.csv: line 4: the input 'u' has another value in line 3"));
+    auto const log = replaced(serial_mapping, "0.05", "2");
+    auto const lines = "0,0,100\n1000,0,100\n1000,5,105\n2000,5,105\n";
+    CHECK(check(import_serial(log, lines), 1) == 105);
+    CHECK_THAT(refusal(replaced(log, "\"hold\"", "\"linear\""), lines),
+               ContainsSubstring("a.log: line 3: the input 'u' has another value in line 2"));
+}
+
+TEST_CASE("bounds of a column, in the unit of the readings") {
+    auto const r =
+        import_csv(replaced(csv_mapping, "\"error\": 0.02", "\"error\": {\"column\": \"bound\"}"),
+                   small_table);
+    auto const& s = r.data.scenarios.at(0);
+    CHECK(s.stated[0].error == dec("0.01"));
+    CHECK(s.stated[2].error == dec("0.04"));
+}
+
+TEST_CASE("what is rounded is in the bound") {
+    auto const third =
+        replaced(csv_mapping, "\"factor\": 0.01", "\"factor\": [0.0099, 0.0101], \"divisor\": 3");
+    auto const s = import_csv(third, small_table).data.scenarios.at(0);
+    auto const& m = s.stated.at(1); // 101 * 0.0099 / 3 = 0.3333, 101 * 0.0101 / 3 = 0.34003..
+    CHECK_FALSE(m.value.times(3) + m.error.times(3) <
+                dec("101").times(dec("0.0101")) + dec("0.06"));
+    CHECK_FALSE(dec("101").times(dec("0.0099")) - dec("0.06") <
+                m.value.times(3) - m.error.times(3));
+    CHECK(m.error < dec("0.024"));
+    // An input means the nearest double; its bound covers the difference.
+    auto const input = replaced(csv_mapping, "\"column\": \"pump\"",
+                                "\"column\": \"pump\", \"factor\": 0.1, \"error\": 1e-20");
+    auto const u = import_csv(input, small_table).data.scenarios.at(0).inputs.at(0);
+    REQUIRE(u.stated_error.size() == 4);
+    auto const exact = dec("0.15"), stated = exact_decimal::of(u.signal.values()[0]);
+    CHECK_FALSE(u.stated_error[0] < magnitude(exact - stated) + dec("1e-20"));
+    CHECK(u.stated_error[0] < magnitude(exact - stated).times(2));
+    CHECK(u.stated_error[2] == dec("1e-20")); // 0.25 is a double
+}
+
+TEST_CASE("a proposed bound: once for each channel, from the fit scenarios alone") {
+    auto two = replaced(csv_mapping, "\"error\": 0.02", "\"error\": \"propose\"");
+    auto const from = two.find("    { \"name\"");
+    auto const scenario = two.substr(from, two.rfind(" ]") - from);
+    auto second = replaced(replaced(scenario, "\"A\"", "\"B\""), "\"fit\"", "\"holdout\"");
+    second = replaced(second, "a.csv", "b.csv");
+    two.insert(two.rfind(" ]"), ", " + second);
+    temporary_folder const folder;
+    folder.write("mapping.json", two);
+    folder.write("a.csv", smooth(300, 1));
+    folder.write("b.csv", smooth(300, 5, 2));
+    auto const r = import_in(folder);
+    REQUIRE(r.protocol.bounds.size() == 1);
+    CHECK(r.protocol.bounds[0].scenarios.size() == 1); // not the one held out
+    auto const& error = r.data.scenarios.at(0).stated.at(0).error;
+    CHECK(error.text() == r.protocol.bounds[0].bound);
+    CHECK(error == r.data.scenarios.at(1).stated.at(0).error);
+    CHECK_FALSE(error < dec("0.01"));
+    CHECK(error < dec("0.03"));
+    CHECK_THAT(r.protocol.text(), ContainsSubstring("error bound of h, proposed"));
+}
+
+TEST_CASE("more outliers than the data set allows are told") {
+    auto table = smooth(300, 1);
+    for (auto const* spike : {"\n500,1,", "\n1500,1,"})
+        table = replaced(table, spike, std::string{spike} + "9");
+    auto const proposing = replaced(csv_mapping, "\"error\": 0.02", "\"error\": \"propose\"");
+    auto const r = import_csv(proposing, table);
+    CHECK(r.protocol.bounds.at(0).scenarios.at(0).second.outliers == 2);
+    CHECK(has_note(r.protocol, "2 samples may violate the proposed bound"));
+    auto const allowed = import_csv(
+        replaced(proposing, "\"max_outlier_fraction\": 0", "\"max_outlier_fraction\": 0.01"),
+        table);
+    CHECK_FALSE(has_note(allowed.protocol, "may violate"));
+}
+
+TEST_CASE("no bound is made up") {
+    auto const proposing = replaced(csv_mapping, "\"error\": 0.02", "\"error\": \"propose\"");
+    CHECK_THAT(
+        refusal(proposing, small_table),
+        ContainsSubstring("/scenarios/0/channels/h/error: no error bound of 'h' can be proposed"));
+    std::string constant = "time,pump,level\n";
+    for (int i = 0; i < 100; ++i) constant += std::to_string(i) + ",1,7\n";
+    CHECK_THAT(refusal(proposing, constant), ContainsSubstring("different readings"));
+}
+
+TEST_CASE("inputs may have proposed bounds too") {
+    auto const mapping = replaced(replaced(csv_mapping, "\"column\": \"pump\"",
+                                           "\"column\": \"level\", \"error\": \"propose\""),
+                                  "\"error\": 0.02", "\"error\": \"propose\"");
+    auto const r = import_csv(mapping, smooth(200, 1));
+    CHECK(r.protocol.bounds.size() == 2);
+    CHECK_FALSE(r.data.scenarios[0].inputs[0].error.empty());
+}
+
+TEST_CASE("a restart makes a second scenario, with its own start") {
+    auto const mapping = replaced(
+        replaced(serial_mapping, "\"longest_gap\": 0.05",
+                 "\"longest_gap\": 0.05, \"restart\": \"split\""),
+        "\"initial\": {}", R"("initial": {"x": [99, 101]}, "initial_after_break": {"v": [-1, 1]})");
+    auto const r = import_serial(mapping, serial_lines(1000, 20) + serial_lines(7, 10));
+    REQUIRE(r.data.scenarios.size() == 2);
+    CHECK(r.data.scenarios[0].name == "A-1");
+    CHECK(r.data.scenarios[1].name == "A-2");
+    CHECK(r.data.scenarios[0].duration == 0.19);
+    CHECK(r.data.scenarios[1].duration == 0.09);
+    CHECK(r.data.scenarios[0].initial[0].stated);
+    CHECK_FALSE(r.data.scenarios[0].initial[1].stated);
+    CHECK_FALSE(r.data.scenarios[1].initial[0].stated);
+    CHECK(r.data.scenarios[1].initial[1].stated);
+    CHECK(has_note(r.protocol, "begins after a break"));
+}
+
+TEST_CASE("stretches that make no scenario are dropped with a note, not silently") {
+    auto const mapping = replaced(serial_mapping, "\"longest_gap\": 0.05",
+                                  "\"longest_gap\": 0.05, \"restart\": \"split\"");
+    // The second stretch has no count at all.
+    auto const r = import_serial(mapping, serial_lines(1000, 20) + "5,1,\n15,1,\n25,1,\n");
+    REQUIRE(r.data.scenarios.size() == 1);
+    CHECK(noted(r.protocol, "no scenario can be made") == std::vector<std::size_t>{21, 22, 23});
+    // No stretch is left.
+    CHECK_THAT(refusal(mapping, "1000,1,\n1010,1,\n5,1,\n15,1,\n25,1,\n"),
+               ContainsSubstring("no stretch of the log makes a scenario"));
+}
+
+TEST_CASE("names that collide and values beyond double are refused") {
+    auto text = replaced(serial_mapping, "\"longest_gap\": 0.05",
+                         "\"longest_gap\": 0.05, \"restart\": \"split\"");
+    auto const from = text.find("    { \"name\"");
+    auto const scenario = text.substr(from, text.rfind(" ]") - from);
+    text.insert(text.rfind(" ]"),
+                ", " + replaced(replaced(scenario, "\"A\"", "\"A-2\""), "split", "drop"));
+    CHECK_THAT(refusal(text, serial_lines(1000, 20) + serial_lines(7, 10)),
+               ContainsSubstring("two scenarios are called"));
+    CHECK_THAT(refusal(replaced(csv_mapping, "\"error\": 0.02", "\"error\": 1.7e308"),
+                       "time,pump,level\n0,1,1e307\n1,1,1e310\n"),
+               ContainsSubstring("finite number"));
+    CHECK_THAT(refusal(replaced(csv_mapping, "0.01, \"error\": 0.02", "100, \"error\": 1.7e308"),
+                       "time,pump,level\n0,1,1e306\n1,1,1e306\n"),
+               ContainsSubstring("line 2: value and error bound are beyond the range"));
+    CHECK_THAT(refusal(csv_mapping, ""), ContainsSubstring("no heading line"));
+}
+
+#ifdef SIVID_SHARED_DIR
+TEST_CASE("measured machines: bounds as their descriptions say") {
+    temporary_folder const folder;
+    auto const import_one = [&](std::string const& file, std::string const& u,
+                                std::string const& y) {
+        auto mapping =
+            replaced(csv_mapping, "a.csv", std::string{SIVID_SHARED_DIR} + "/data/" + file);
+        mapping =
+            replaced(replaced(mapping, "\"time\", \"unit\": \"ms\"", "\"t_s\", \"unit\": \"s\""),
+                     "\"pump\"", "\"" + u + "\"");
+        mapping = replaced(mapping, "\"level\", \"factor\": 0.01, \"error\": 0.02",
+                           "\"" + y + "\", \"error\": \"propose\"");
+        folder.write("mapping.json", mapping);
+        return import_in(folder);
+    };
+    // At 200 Hz the samples do not tell the axis' motion from errors (0.65 um at 1 kHz).
+    try {
+        (void)import_one("emps/estimation_200Hz.csv", "force_N", "position_m");
+        FAIL("a bound was proposed");
+    } catch (input_error const& e) {
+        CHECK_THAT(e.what(), ContainsSubstring("ask for a bound of at least 4.32e-06") &&
+                                 ContainsSubstring("state it as a number"));
+    }
+    auto const tanks =
+        import_one("cascaded_tanks/estimation.csv", "pump_voltage_V", "level_lower_tank_V");
+    auto const& q = tanks.protocol.bounds.at(0).scenarios.at(0).second;
+    CHECK(q.bound > 0.09); // 0.15 V is suggested
+    CHECK(q.bound < 0.2);
+    CHECK(tanks.data.scenarios[0].measurements.size() == 1024);
+}
+#endif
