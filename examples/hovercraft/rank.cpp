@@ -25,7 +25,7 @@ namespace report = sivid::report;
 /// Widened a little where the bounds agree to many digits, so that they read well.
 report::range readable(sivid::interval const& x) {
     double const more = 2e-4 * x.upper();
-    return width(x) > more ? x : report::range{x.lower() - more, x.upper() + more};
+    return width(x) > more ? report::range{x} : report::range{x.lower() - more, x.upper() + more};
 }
 
 std::string ranking_csv(std::vector<ranked_equation> const& ranking) {

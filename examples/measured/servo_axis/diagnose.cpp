@@ -271,7 +271,7 @@ void add_values(report::page& page, std::vector<chain_link> const& chain) {
 
 /// One scenario for all windows of a record: they follow one another in time.
 void merge_windows(report::diagnosis_plot_data& data) {
-    std::vector<report::scenario_data> merged;
+    std::vector<report::compared_scenario> merged;
     auto const append = [](auto& to, auto const& from) {
         to.insert(to.end(), from.begin(), from.end());
     };
@@ -279,35 +279,30 @@ void merge_windows(report::diagnosis_plot_data& data) {
         if (merged.empty() || merged.back().holdout != s.holdout) {
             merged.push_back({s.holdout ? "validation record, window by window"
                                         : "estimation record, window by window",
-                              s.holdout,
-                              {},
-                              s.channels});
+                              s.holdout, s.channels});
             continue;
         }
         for (std::size_t i = 0; i < s.channels.size(); ++i) {
             auto& to = merged.back().channels[i];
             auto const& from = s.channels[i];
-            append(to.times, from.times);
-            append(to.values, from.values);
-            append(to.bounds, from.bounds);
-            append(to.base, from.base);
+            append(to.measured, from.measured);
+            append(to.before, from.before);
             append(to.after, from.after);
-            append(to.outliers, from.outliers);
+            append(to.misfit_before, from.misfit_before);
+            append(to.misfit_after, from.misfit_after);
         }
     }
     data.scenarios = std::move(merged);
     for (auto* rates : {&data.missing_rates, &data.remaining_rates}) {
-        std::vector<report::missing_rate_data> joined;
+        std::vector<report::missing_rate_series> joined;
         for (auto const& r : *rates) {
             if (joined.empty() || joined.back().equation != r.equation) {
                 joined.push_back(r);
                 joined.back().scenario = "estimation record, window by window";
                 continue;
             }
-            append(joined.back().times, r.times);
-            append(joined.back().values, r.values);
-            append(joined.back().uncertainty, r.uncertainty);
-            append(joined.back().windows, r.windows);
+            append(joined.back().estimate, r.estimate);
+            append(joined.back().certified, r.certified);
         }
         *rates = std::move(joined);
     }
