@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <memory>
 #include <variant>
+#include <utility>
 #include <vector>
 
 namespace sivid {
