@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <variant>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace sivid {
