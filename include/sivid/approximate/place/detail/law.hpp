@@ -8,10 +8,12 @@
 #include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -74,20 +76,34 @@ struct law_roles {
 class law_library {
 public:
     law_library(recorded_model const& model, std::vector<knot_trace> const& traces)
-        : about_(&model.about), traces_(&traces), roles_(model) {}
+        : about_(&model.about), roles_(model) {
+        for (auto const& t : traces) lengths_.push_back(static_cast<Eigen::Index>(t.times.size()));
+        auto const along = [&](auto const& value) {
+            array all(std::accumulate(lengths_.begin(), lengths_.end(), Eigen::Index{0}));
+            Eigen::Index at = 0;
+            for (auto const& t : traces)
+                for (std::size_t k = 0; k < t.times.size(); ++k) all[at++] = value(t, k);
+            return all;
+        };
+        t_ = along([](knot_trace const& t, std::size_t k) { return t.times[k]; });
+        one_ = array::Ones(t_.size());
+        for (std::size_t i = 0; i < about_->states.size(); ++i)
+            x_.push_back(along([i](auto const& t, std::size_t k) { return t.states[k][i]; }));
+        for (std::size_t i = 0; i < about_->inputs.size(); ++i) {
+            u_.push_back(along([i](auto const& t, std::size_t k) { return t.inputs[k][i]; }));
+            slope_.push_back(
+                along([i](auto const& t, std::size_t k) { return t.input_slopes[k][i]; }));
+        }
+    }
 
     /// For a missing rate.
     [[nodiscard]] std::vector<law> for_rates() const {
         std::vector<law> laws;
-        auto const none = factor{"", [](knot_trace const&, std::size_t) { return 1.0; }};
-        with_gain(none, laws, true);
-        for (std::size_t i = 0; i < about_->inputs.size(); ++i) {
-            auto const name = about_->inputs[i].name;
-            with_gain({name, [i](knot_trace const& t, std::size_t k) { return t.inputs[k][i]; }},
-                      laws, false);
-            with_gain({name + "^2", [i](knot_trace const& t,
-                                        std::size_t k) { return t.inputs[k][i] * t.inputs[k][i]; }},
-                      laws, false);
+        with_gain("", one_, laws, true);
+        for (std::size_t i = 0; i < u_.size(); ++i) {
+            auto const& name = about_->inputs[i].name;
+            with_gain(name, u_[i], laws, false);
+            with_gain(name + "^2", u_[i].square(), laws, false);
         }
         geometric(laws);
         return laws;
@@ -95,44 +111,33 @@ public:
     /// For what is wrong with an input, in the unit of the input.
     [[nodiscard]] std::vector<law> for_input(std::size_t i) const {
         std::vector<law> laws;
-        auto const name = about_->inputs[i].name;
-        auto const value = [i](knot_trace const& t, std::size_t k) { return t.inputs[k][i]; };
-        add(laws, "1", [](knot_trace const&, std::size_t) { return 1.0; });
-        add(laws, name, value);
-        add(laws, name + "*t",
-            [=](knot_trace const& t, std::size_t k) { return value(t, k) * t.times[k]; });
-        for (auto const j : roles_.moving) {
-            add(laws, name + "*" + about_->states[j].name,
-                [=](knot_trace const& t, std::size_t k) { return value(t, k) * t.states[k][j]; });
-        }
-        add(laws, "d(" + name + ")/dt",
-            [i](knot_trace const& t, std::size_t k) { return t.input_slopes[k][i]; });
-        add(laws, name + "^3",
-            [=](knot_trace const& t, std::size_t k) { return std::pow(value(t, k), 3); });
-        add(laws, "sgn(" + name + ")",
-            [=](knot_trace const& t, std::size_t k) { return sign(value(t, k)); });
-        transients(name, value, laws);
-        hinges({"", [](knot_trace const&, std::size_t) { return 1.0; }}, i, laws);
+        auto const& name = about_->inputs[i].name;
+        auto const& u = u_[i];
+        add(laws, "1", one_);
+        add(laws, name, u);
+        add(laws, name + "*t", u * t_);
+        for (auto const j : roles_.moving)
+            add(laws, name + "*" + about_->states[j].name, u * x_[j]);
+        add(laws, "d(" + name + ")/dt", slope_[i]);
+        add(laws, name + "^3", u.cube());
+        add(laws, "sgn(" + name + ")", u.sign());
+        transients(name, u, laws);
+        hinges("", one_, i, laws);
         return laws;
     }
     /// Swings of a missing rate, at frequencies close enough for `missing_term` to find its own.
     [[nodiscard]] std::vector<law> waves() const {
         std::vector<law> laws;
         double longest = 0;
-        for (auto const& t : *traces_)
-            if (!t.times.empty()) longest = std::max(longest, t.times.back() - t.times.front());
+        for (auto const& own : values(t_))
+            if (!own.empty()) longest = std::max(longest, own.back() - own.front());
         if (!(longest > 0)) return laws;
         for (double w = 3 / longest; w < 60 / longest; w *= 1.2) {
             double const own = rounded_to(w, 2);
             auto const arg = nearest_text(own) + "*t";
             laws.push_back({"cos(" + arg + "), sin(" + arg + ")",
                             {},
-                            {values([own](auto const& t, std::size_t k) {
-                                 return std::cos(own * t.times[k]);
-                             }),
-                             values([own](auto const& t, std::size_t k) {
-                                 return std::sin(own * t.times[k]);
-                             })},
+                            {values((own * t_).cos()), values((own * t_).sin())},
                             "wave(" + arg + ")",
                             own});
         }
@@ -143,147 +148,100 @@ public:
     [[nodiscard]] std::vector<law> beyond_levels() const {
         std::vector<law> laws;
         for (auto const i : roles_.moving) {
-            auto const x = [i](knot_trace const& t, std::size_t k) { return t.states[k][i]; };
-            double low = HUGE_VAL, high = -HUGE_VAL;
-            for (auto const& own : values(x)) {
-                for (double const v : own) {
-                    low = std::min(low, v);
-                    high = std::max(high, v);
-                }
-            }
+            auto const& x = x_[i];
+            if (x.size() == 0) continue;
+            double const low = x.minCoeff(), high = x.maxCoeff();
             if (!(low < high) || low < -1e-3 * high) continue;
-            auto const name = about_->states[i].name;
+            auto const& name = about_->states[i].name;
             for (int share = 1; share < 20; ++share) {
                 double const threshold = low + (high - low) * share / 20;
                 auto const text = nearest_text(threshold, 3);
                 auto const regime = name + " > " + text;
-                add(
-                    laws, "max(" + name + "-" + text + ",0)",
-                    [=](knot_trace const& t, std::size_t k) {
-                        return std::max(x(t, k) - threshold, 0.0);
-                    },
-                    regime);
-                add(
-                    laws, "1",
-                    [=](knot_trace const& t, std::size_t k) {
-                        return x(t, k) > threshold ? 1.0 : 0.0;
-                    },
-                    regime);
+                add(laws, "max(" + name + "-" + text + ",0)", (x - threshold).max(0.0), regime);
+                add(laws, "1", (x > threshold).cast<double>(), regime);
             }
         }
         return laws;
     }
 
 private:
-    using function = std::function<double(knot_trace const&, std::size_t)>;
-    struct factor {
-        std::string name;
-        function value;
-    };
+    using array = Eigen::ArrayXd; ///< at all knots, one experiment after the other
 
-    static double sign(double v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
-    [[nodiscard]] std::vector<std::vector<double>> values(function const& f) const {
+    [[nodiscard]] std::vector<std::vector<double>> values(array const& all) const {
         std::vector<std::vector<double>> result;
-        for (auto const& t : *traces_) {
-            auto& own = result.emplace_back();
-            for (std::size_t k = 0; k < t.times.size(); ++k) own.push_back(f(t, k));
+        auto const* from = all.data();
+        for (auto const n : lengths_) {
+            result.emplace_back(from, from + n);
+            from += n;
         }
         return result;
     }
-    void add(std::vector<law>& laws, std::string text, function const& f, std::string regime = {},
+    void add(std::vector<law>& laws, std::string text, array const& f, std::string regime = {},
              std::string formula = {}) const {
         laws.push_back({std::move(text), std::move(regime), {values(f)}, std::move(formula)});
     }
     static std::string product(std::string const& a, std::string const& b) {
         return a.empty() ? b : b == "1" ? a : a + "*" + b;
     }
-    /// The largest |state i| along the motions.
-    [[nodiscard]] double reach(function const& f) const {
-        double most = 0;
-        for (auto const& own : values(f)) {
-            for (double const v : own) most = std::max(most, std::abs(v));
-        }
-        return most;
+    [[nodiscard]] static double largest(array const& f) {
+        return f.size() == 0 ? 0 : f.abs().maxCoeff();
     }
-    void with_gain(factor const& gain, std::vector<law>& laws, bool alone) const {
-        auto const put = [&](std::string const& text, function const& f,
+    void with_gain(std::string const& gain, array const& g, std::vector<law>& laws,
+                   bool alone) const {
+        auto const put = [&](std::string const& text, array const& f,
                              std::optional<std::string> const& formula = {}) {
-            auto const g = gain.value;
             auto const own = formula.value_or(text);
-            add(
-                laws, product(gain.name, text),
-                [g, f](knot_trace const& t, std::size_t k) { return g(t, k) * f(t, k); }, {},
-                own.empty() ? own : product(gain.name, own));
+            add(laws, product(gain, text), g * f, {}, own.empty() ? own : product(gain, own));
         };
-        put("1", [](knot_trace const&, std::size_t) { return 1.0; });
-        put("t", [](knot_trace const& t, std::size_t k) { return t.times[k]; });
+        put("1", one_);
+        put("t", t_);
         for (auto const i : roles_.moving) {
-            auto const name = about_->states[i].name;
-            auto const x = [i](knot_trace const& t, std::size_t k) { return t.states[k][i]; };
+            auto const& name = about_->states[i].name;
+            auto const& x = x_[i];
             put(name, x);
             if (!alone) continue;
-            double const small = rounded_to(0.02 * reach(x) + 1e-300, 2);
-            put("abs(" + name + ")*" + name,
-                [=](knot_trace const& t, std::size_t k) { return std::abs(x(t, k)) * x(t, k); });
-            put(
-                "sgn(" + name + ")",
-                [=](knot_trace const& t, std::size_t k) {
-                    return x(t, k) / std::hypot(x(t, k), small);
-                },
+            double const small = rounded_to(0.02 * largest(x) + 1e-300, 2);
+            put("abs(" + name + ")*" + name, x.abs() * x);
+            put("sgn(" + name + ")",
+                x.unaryExpr([small](double v) { return v / std::hypot(v, small); }),
                 "sgn(" + name + ":" + nearest_text(small) + ")");
-            put(name + "^3",
-                [=](knot_trace const& t, std::size_t k) { return std::pow(x(t, k), 3); });
+            put(name + "^3", x.cube());
             for (auto const j : roles_.moving) {
                 if (j < i) continue;
-                put(j == i ? name + "^2" : name + "*" + about_->states[j].name,
-                    [=](knot_trace const& t, std::size_t k) { return x(t, k) * t.states[k][j]; });
+                put(j == i ? name + "^2" : name + "*" + about_->states[j].name, x * x_[j]);
             }
         }
-        for (std::size_t j = 0; j < about_->inputs.size(); ++j) {
-            auto const name = about_->inputs[j].name;
-            if (gain.name == name || gain.name == name + "^2") {
-                transients(gain.name, gain.value, laws);
+        for (std::size_t j = 0; j < u_.size(); ++j) {
+            auto const& name = about_->inputs[j].name;
+            if (gain == name || gain == name + "^2") {
+                transients(gain, g, laws);
                 continue;
             }
-            auto const u = [j](knot_trace const& t, std::size_t k) { return t.inputs[k][j]; };
-            if (!alone) put(name, u);
-            put(
-                "d(" + name + ")/dt",
-                [j](knot_trace const& t, std::size_t k) { return t.input_slopes[k][j]; }, "");
-            put(name + "^3",
-                [=](knot_trace const& t, std::size_t k) { return std::pow(u(t, k), 3); });
-            put(
-                "sgn(" + name + ")",
-                [=](knot_trace const& t, std::size_t k) { return sign(u(t, k)); }, "");
-            hinges(gain, j, laws);
+            if (!alone) put(name, u_[j]);
+            put("d(" + name + ")/dt", slope_[j], "");
+            put(name + "^3", u_[j].cube());
+            put("sgn(" + name + ")", u_[j].sign(), "");
+            hinges(gain, g, j, laws);
         }
-        if (alone) transients("", gain.value, laws);
+        if (alone) transients("", g, laws);
     }
-    void transients(std::string const& name, function const& f, std::vector<law>& laws) const {
-        for (double const tau : {0.1, 0.25, 0.6}) {
-            auto const text = "exp(-t/" + nearest_text(tau, 6) + ")";
-            add(laws, product(name, text), [=](knot_trace const& t, std::size_t k) {
-                return f(t, k) * std::exp(-t.times[k] / tau);
-            });
-        }
+    void transients(std::string const& name, array const& f, std::vector<law>& laws) const {
+        for (double const tau : {0.1, 0.25, 0.6})
+            add(laws, product(name, "exp(-t/" + nearest_text(tau, 6) + ")"), f * (-t_ / tau).exp());
     }
     /// What an input does beyond a threshold.
-    void hinges(factor const& gain, std::size_t j, std::vector<law>& laws) const {
-        auto const name = about_->inputs[j].name;
-        auto const u = [j](knot_trace const& t, std::size_t k) { return t.inputs[k][j]; };
-        double const most = reach(u);
+    void hinges(std::string const& gain, array const& g, std::size_t j,
+                std::vector<law>& laws) const {
+        auto const& name = about_->inputs[j].name;
+        auto const& u = u_[j];
+        double const most = largest(u);
         if (!(most > 0)) return;
         for (int share = 1; share < 10; ++share) {
             double const threshold = rounded_to(most * share / 10, 2);
             auto const text = nearest_text(threshold);
-            auto const g = gain.value;
-            add(
-                laws, product(gain.name, "sgn(" + name + ")*max(abs(" + name + ")-" + text + ",0)"),
-                [=](knot_trace const& t, std::size_t k) {
-                    return g(t, k) * sign(u(t, k)) * std::max(std::abs(u(t, k)) - threshold, 0.0);
-                },
-                "abs(" + name + ") > " + text,
-                product(gain.name, "beyond(" + name + ":" + text + ")"));
+            add(laws, product(gain, "sgn(" + name + ")*max(abs(" + name + ")-" + text + ",0)"),
+                g * u.sign() * (u.abs() - threshold).max(0.0), "abs(" + name + ") > " + text,
+                product(gain, "beyond(" + name + ":" + text + ")"));
         }
     }
     /// cos, sin of angles, alone and times a speed; products with the speed.
@@ -296,48 +254,36 @@ private:
                 });
             if (shared) same.push_back(i);
         }
-        auto const speed = [same](knot_trace const& t, std::size_t k) {
-            double sum = 0;
-            for (auto const i : same) sum += t.states[k][i] * t.states[k][i];
-            return std::sqrt(sum);
-        };
+        array speed = array::Zero(t_.size());
+        for (auto const i : same) speed += x_[i].square();
+        speed = speed.sqrt().eval();
         auto const norm = "sqrt(" +
                           joined(same, "+", [&](auto i) { return about_->states[i].name + "^2"; }) +
                           ")";
         for (auto const i : same) {
-            add(
-                laws, "speed*" + about_->states[i].name,
-                [=](knot_trace const& t, std::size_t k) { return speed(t, k) * t.states[k][i]; },
-                {}, norm + "*" + about_->states[i].name);
-            add(laws, about_->states[i].name + "/speed", [=](knot_trace const& t, std::size_t k) {
-                return t.states[k][i] / (speed(t, k) + 0.02);
-            });
+            auto const& name = about_->states[i].name;
+            add(laws, "speed*" + name, speed * x_[i], {}, norm + "*" + name);
+            add(laws, name + "/speed", x_[i] / (speed + 0.02));
         }
         for (auto const i : roles_.angles) {
-            auto const name = about_->states[i].name;
+            auto const& name = about_->states[i].name;
             for (bool const fast : {false, true}) {
                 if (fast && same.empty()) continue;
-                auto const g = [=](knot_trace const& t, std::size_t k) {
-                    return fast ? speed(t, k) : 1.0;
-                };
-                auto const c = [=](knot_trace const& t, std::size_t k) {
-                    return g(t, k) * std::cos(t.states[k][i]);
-                };
-                auto const s = [=](knot_trace const& t, std::size_t k) {
-                    return g(t, k) * std::sin(t.states[k][i]);
-                };
+                auto const& g = fast ? speed : one_;
                 std::string const head = fast ? "speed*" : "";
                 laws.push_back({head + "cos(" + name + "), " + head + "sin(" + name + ")",
                                 {},
-                                {values(c), values(s)},
+                                {values(g * x_[i].cos()), values(g * x_[i].sin())},
                                 (fast ? norm + "*" : "") + "turn(" + name + ")"});
             }
         }
     }
 
     model_description const* about_;
-    std::vector<knot_trace> const* traces_;
     law_roles roles_;
+    std::vector<Eigen::Index> lengths_; ///< knots of each experiment
+    array t_, one_;
+    std::vector<array> x_, u_, slope_; ///< states, inputs and the slopes of these
 };
 
 } // namespace sivid

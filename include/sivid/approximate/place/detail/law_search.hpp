@@ -65,19 +65,48 @@ public:
     /// @param beside  a law that acts besides each of them; none: alone
     [[nodiscard]] std::vector<ranked_law> for_target(std::size_t c, std::vector<law> const& laws,
                                                      law const* beside = nullptr) {
-        prepare([c](std::size_t i) { return i == c; });
-        return rank(laws, beside, [&](std::size_t e, std::vector<double> const& f) {
-            return column(e, c, [&](std::size_t k) { return f[k]; });
-        });
+        prepare(c);
+        std::vector<ranked_law> result;
+        if (!factor_.computed()) return result;
+        double const without = squares_with({});
+        double whole = 0; // with the free missing rates
+        for (std::size_t e = 0; e < residuals_.size(); ++e) {
+            whole += residuals_[e].squaredNorm() + at_.local[e].dot(smooth_[e] * at_.local[e]);
+        }
+        for (std::size_t k = 0; k < laws.size(); ++k) {
+            std::vector<std::vector<Eigen::VectorXd>> columns;
+            auto const add = [&](law const& one) {
+                for (auto const& f : one.functions) {
+                    auto& v = columns.emplace_back();
+                    for (std::size_t e = 0; e < residuals_.size(); ++e)
+                        v.push_back(column(e, c, f[e]));
+                }
+            };
+            add(laws[k]);
+            if (beside != nullptr) add(*beside);
+            ranked_law own;
+            own.index = k;
+            own.squares = squares_with(columns);
+            if (!std::isfinite(own.squares)) continue;
+            double const gain = without - whole;
+            own.share = gain > 0 ? (without - own.squares) / gain : 0;
+            double const terms =
+                static_cast<double>(columns.size()) + (laws[k].regime.empty() ? 0 : 1);
+            own.score = 3 * own.squares + terms * std::log(std::max(samples_, 2.0));
+            result.push_back(own);
+        }
+        std::stable_sort(result.begin(), result.end(),
+                         [](auto const& a, auto const& b) { return a.score < b.score; });
+        return result;
     }
 
 private:
-    template <class F>
-    [[nodiscard]] Eigen::VectorXd column(std::size_t e, std::size_t c, F const& f) const {
+    [[nodiscard]] Eigen::VectorXd column(std::size_t e, std::size_t c,
+                                         std::vector<double> const& f) const {
         auto const g = at_.global.size();
         Eigen::VectorXd sum = Eigen::VectorXd::Zero(residuals_[e].size());
         for (std::size_t k = 0; k < campaign_->knots(e).size(); ++k) {
-            sum += f(k) * jacobians_[e].col(g + knot_column(e, k, c));
+            sum += f[k] * jacobians_[e].col(g + knot_column(e, k, c));
         }
         return sum;
     }
@@ -85,9 +114,8 @@ private:
         return static_cast<Eigen::Index>(campaign_->free_starts(e) + k * targets_.size() + c);
     }
 
-    /// The system of everything that adapts, without the equations that laws replace.
-    template <class Replaced>
-    void prepare(Replaced const& replaced) {
+    /// The system of everything that adapts, without the target that laws replace.
+    void prepare(std::size_t replaced) {
         auto const g = at_.global.size();
         Eigen::Index size = g;
         kept_columns_.assign(residuals_.size(), {});
@@ -96,7 +124,7 @@ private:
             for (Eigen::Index j = 0; j < locals_[e]; ++j) {
                 auto const c = static_cast<std::size_t>(j - starts) %
                                std::max<std::size_t>(targets_.size(), 1);
-                if (j < starts || !replaced(c)) kept_columns_[e].push_back(j);
+                if (j < starts || c != replaced) kept_columns_[e].push_back(j);
             }
             size += static_cast<Eigen::Index>(kept_columns_[e].size());
         }
@@ -183,42 +211,6 @@ private:
         left.diagonal() += 1e-9 * gram.diagonal() + Eigen::VectorXd::Constant(n, 1e-300);
         approximate_cholesky own;
         return own.compute(left) ? without - pull.dot(own.solve(pull).col(0)) : without;
-    }
-    template <class Column>
-    [[nodiscard]] std::vector<ranked_law> rank(std::vector<law> const& laws, law const* beside,
-                                               Column const& column_of) {
-        std::vector<ranked_law> result;
-        if (!factor_.computed()) return result;
-        double const without = squares_with({});
-        double whole = 0; // with the free missing rates
-        for (std::size_t e = 0; e < residuals_.size(); ++e) {
-            whole += residuals_[e].squaredNorm() + at_.local[e].dot(smooth_[e] * at_.local[e]);
-        }
-        for (std::size_t k = 0; k < laws.size(); ++k) {
-            std::vector<std::vector<Eigen::VectorXd>> columns;
-            auto const add = [&](law const& one) {
-                for (auto const& f : one.functions) {
-                    auto& v = columns.emplace_back();
-                    for (std::size_t e = 0; e < residuals_.size(); ++e)
-                        v.push_back(column_of(e, f[e]));
-                }
-            };
-            add(laws[k]);
-            if (beside != nullptr) add(*beside);
-            ranked_law own;
-            own.index = k;
-            own.squares = squares_with(columns);
-            if (!std::isfinite(own.squares)) continue;
-            double const gain = without - whole;
-            own.share = gain > 0 ? (without - own.squares) / gain : 0;
-            double const terms =
-                static_cast<double>(columns.size()) + (laws[k].regime.empty() ? 0 : 1);
-            own.score = 3 * own.squares + terms * std::log(std::max(samples_, 2.0));
-            result.push_back(own);
-        }
-        std::stable_sort(result.begin(), result.end(),
-                         [](auto const& a, auto const& b) { return a.score < b.score; });
-        return result;
     }
 
     campaign* campaign_;
