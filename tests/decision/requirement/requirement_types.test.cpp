@@ -9,9 +9,10 @@
 using Catch::Matchers::ContainsSubstring;
 
 TEST_CASE("an error in a requirement says where it is, what is wrong, and what to do") {
-    sivid::requirement_error const e("requirement", "u >", 3, "the text ends", "write a number");
-    CHECK(e.position() == 3);
+    sivid::requirement_error const e("requirement", "u > : 3", 4, "no number", "write one");
+    CHECK(e.position() == 4);
     std::string const text = e.what();
-    CHECK_THAT(text, ContainsSubstring("requirement") && ContainsSubstring("u >") &&
-                         ContainsSubstring("the text ends") && ContainsSubstring("write a number"));
+    CHECK_THAT(text, ContainsSubstring("requirement: character 5") && ContainsSubstring("': 3'") &&
+                         ContainsSubstring("behind 'u > '") && ContainsSubstring("no number") &&
+                         ContainsSubstring("write one"));
 }
