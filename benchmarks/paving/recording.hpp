@@ -2,7 +2,7 @@
 #ifndef SIVID_BENCHMARKS_PAVING_RECORDING_HPP
 #define SIVID_BENCHMARKS_PAVING_RECORDING_HPP
 
-#include <sivid/model/graph/plain_program.hpp>
+#include <sivid/approximate/simulate/approximate_program.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/problem.hpp>
 
@@ -103,7 +103,7 @@ private:
     }
 
     std::size_t n_;
-    plain_program program_;
+    approximate_program program_;
     values memory_;
 };
 

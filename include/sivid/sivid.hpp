@@ -68,7 +68,6 @@
 #include <sivid/model/graph/graph_range.hpp>
 #include <sivid/model/graph/normal_form.hpp>
 #include <sivid/model/graph/operation.hpp>
-#include <sivid/model/graph/plain_program.hpp>
 #include <sivid/model/graph/program.hpp>
 #include <sivid/model/graph/recorded_map.hpp>
 #include <sivid/model/graph/rewrite.hpp>
@@ -95,6 +94,7 @@
 #include <sivid/approximate/place/place.hpp>
 #include <sivid/approximate/place/place_options.hpp>
 #include <sivid/approximate/simulate/approximate_model.hpp>
+#include <sivid/approximate/simulate/approximate_program.hpp>
 #include <sivid/approximate/simulate/approximate_simulator.hpp>
 #include <sivid/approximate/simulate/late_signal.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>

@@ -2,10 +2,10 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_MODEL_HPP
 #define SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_MODEL_HPP
 
+#include <sivid/approximate/simulate/approximate_program.hpp>
 #include <sivid/approximate/simulate/late_signal.hpp>
 #include <sivid/measurement/dead_time.hpp>
 #include <sivid/model/bound_model.hpp>
-#include <sivid/model/graph/plain_program.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -19,7 +19,7 @@
 namespace sivid {
 
 /// One structurally non-zero partial derivative: d output `row` / d argument `column`.
-struct plain_derivative {
+struct approximate_derivative {
     std::size_t row = 0, column = 0;
     std::size_t slot = 0; ///< of its value in the program's memory
 };
@@ -49,10 +49,10 @@ struct plain_memory {
 };
 
 /// Rates or outputs with their partial derivatives, as programs in plain doubles.
-struct plain_function {
-    plain_program values;    ///< the outputs alone
-    plain_program expansion; ///< outputs, then the derivatives below
-    std::vector<plain_derivative> by_state, by_parameter, by_input, by_time;
+struct approximate_function {
+    approximate_program values;    ///< the outputs alone
+    approximate_program expansion; ///< outputs, then the derivatives below
+    std::vector<approximate_derivative> by_state, by_parameter, by_input, by_time;
 };
 
 /// A model bound to constants and inputs for simulation with sensitivities. Delays and plays are
@@ -87,8 +87,8 @@ public:
     [[nodiscard]] std::size_t parameters() const { return shape_.constants; }
     [[nodiscard]] std::size_t channels() const { return channels_; }
     [[nodiscard]] program_shape const& shape() const { return shape_; }
-    [[nodiscard]] plain_function const& rate() const { return rate_; }
-    [[nodiscard]] plain_function const& observe() const { return observe_; }
+    [[nodiscard]] approximate_function const& rate() const { return rate_; }
+    [[nodiscard]] approximate_function const& observe() const { return observe_; }
     [[nodiscard]] std::vector<plain_memory> const& input_memory() const { return input_memory_; }
     [[nodiscard]] std::vector<plain_memory> const& channel_delays() const {
         return channel_delays_;
@@ -133,12 +133,12 @@ private:
         return result;
     }
 
-    [[nodiscard]] plain_function function_of(bound_model const& bound,
-                                             std::vector<node_id> const& values,
-                                             std::vector<std::vector<node_id>> const& dx,
-                                             std::vector<std::vector<node_id>> const& dp) const {
-        plain_function f;
-        f.values = plain_program(bound.g, values, shape_);
+    [[nodiscard]] approximate_function
+    function_of(bound_model const& bound, std::vector<node_id> const& values,
+                std::vector<std::vector<node_id>> const& dx,
+                std::vector<std::vector<node_id>> const& dp) const {
+        approximate_function f;
+        f.values = approximate_program(bound.g, values, shape_);
         auto g = bound.g;
         std::vector<node_id> u;
         for (auto const i : used_) u.push_back(g.leaf(operation::input, i));
@@ -146,7 +146,7 @@ private:
         auto const dt = differentiate(g, values, {g.leaf(operation::time, 0)});
         auto outputs = values;
         auto const collect = [&](std::vector<std::vector<node_id>> const& d,
-                                 std::vector<plain_derivative>& entries, bool inputs) {
+                                 std::vector<approximate_derivative>& entries, bool inputs) {
             for (std::size_t i = 0; i < d.size(); ++i) {
                 for (std::size_t j = 0; j < d[i].size(); ++j) {
                     if (g.is(d[i][j], 0)) continue;
@@ -159,7 +159,7 @@ private:
         collect(dp, f.by_parameter, false);
         collect(du, f.by_input, true);
         collect(dt, f.by_time, false);
-        f.expansion = plain_program(g, outputs, shape_);
+        f.expansion = approximate_program(g, outputs, shape_);
         for (auto* part : {&f.by_state, &f.by_parameter, &f.by_input, &f.by_time}) {
             for (auto& e : *part) e.slot = f.expansion.output(e.slot);
         }
@@ -170,7 +170,7 @@ private:
     std::size_t channels_ = 0;
     std::vector<std::size_t> used_;
     std::vector<plain_memory> input_memory_, channel_delays_;
-    plain_function rate_, observe_;
+    approximate_function rate_, observe_;
 };
 
 } // namespace sivid

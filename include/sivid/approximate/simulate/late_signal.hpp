@@ -2,11 +2,11 @@
 #ifndef SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 #define SIVID_APPROXIMATE_SIMULATE_LATE_SIGNAL_HPP
 
+#include <sivid/approximate/simulate/approximate_program.hpp>
 #include <sivid/measurement/dead_time.hpp>
 #include <sivid/measurement/limited_signal.hpp>
 #include <sivid/measurement/played_signal.hpp>
 #include <sivid/model/bound_model.hpp>
-#include <sivid/model/graph/plain_program.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ public:
             return;
         }
         auto const& formula = std::get<analytic_signal>(source);
-        formula_ = plain_program(formula.g, {formula.value}, program_shape{});
+        formula_ = approximate_program(formula.g, {formula.value}, program_shape{});
         memory_ = formula_.memory();
         formula_.prepare(memory_);
         is_formula_ = true;
@@ -133,7 +133,7 @@ private:
     std::optional<sampled_signal> recorded_; ///< before the limit and the play
     limited_signal limited_;
     std::vector<double> by_play_; ///< slopes by its half-width, by piece
-    plain_program formula_;
+    approximate_program formula_;
     std::vector<double> memory_;
     bool is_formula_ = false;
 };

@@ -8,8 +8,8 @@
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
+#include <sivid/approximate/simulate/approximate_program.hpp>
 #include <sivid/enclosure/enclose.hpp>
-#include <sivid/model/graph/plain_program.hpp>
 #include <sivid/model/model.hpp>
 
 #include <algorithm>
@@ -166,7 +166,7 @@ TEST_CASE("rates in the new states are those of the old ones, without what the i
                       W = 9 - F;
     auto outputs = slow->model.rate;
     outputs.insert(outputs.end(), slow->model.observe.begin(), slow->model.observe.end());
-    plain_program const program(slow->model.g, outputs, {3, 6, 2});
+    approximate_program const program(slow->model.g, outputs, {3, 6, 2});
     draws d(4);
     for (int sample = 0; sample < 200; ++sample) {
         auto m = program.memory();

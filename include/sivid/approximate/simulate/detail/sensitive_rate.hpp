@@ -199,7 +199,7 @@ public:
         }
     }
 
-    void write_parameters(plain_program const& program, std::vector<double> const& p,
+    void write_parameters(approximate_program const& program, std::vector<double> const& p,
                           std::vector<double>& memory) const {
         std::copy(p.begin(), p.end(),
                   memory.begin() + static_cast<std::ptrdiff_t>(model_->shape().constant()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_MODEL_GRAPH_PLAIN_PROGRAM_HPP
-#define SIVID_MODEL_GRAPH_PLAIN_PROGRAM_HPP
+#ifndef SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_PROGRAM_HPP
+#define SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_PROGRAM_HPP
 
 #include <sivid/model/graph/detail/grouped_steps.hpp>
 #include <sivid/model/graph/graph.hpp>
@@ -14,7 +14,7 @@
 
 namespace sivid {
 
-/// Where a plain program finds its arguments: t, then the states, the inputs, the constants.
+/// Where a program in doubles finds its arguments: t, then the states, the inputs, the constants.
 struct program_shape {
     std::size_t states = 0, inputs = 0, constants = 0;
 
@@ -35,10 +35,10 @@ struct program_shape {
 ///   The memory belongs to the caller: `memory()` once, then write constants and `prepare`, then
 ///   write t, states and inputs and `run` as often as wanted; read `memory[output(k)]`.
 /// @cost  about a nanosecond an operation
-class plain_program {
+class approximate_program {
 public:
-    plain_program() = default;
-    plain_program(graph const& g, std::vector<node_id> const& outputs, program_shape shape)
+    approximate_program() = default;
+    approximate_program(graph const& g, std::vector<node_id> const& outputs, program_shape shape)
         : shape_(shape) {
         auto const needed = operands_of(g, outputs);
         std::vector<program::slot> slots(g.size(), 0);

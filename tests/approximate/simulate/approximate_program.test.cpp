@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/model/graph/plain_program.hpp>
+#include <sivid/approximate/simulate/approximate_program.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
@@ -26,7 +26,7 @@ TEST_CASE("every operation has its plain value") {
         });
     program_shape const shape{2, 1, 1};
     auto rate = model.rate;
-    plain_program const program(model.g, rate, shape);
+    approximate_program const program(model.g, rate, shape);
     auto memory = program.memory();
     double const t = 0.3, a = 1.7, b = -0.4, u = 2.2, p = 0.9;
     memory[shape.constant()] = p;
@@ -57,7 +57,7 @@ TEST_CASE("what depends on constants alone is computed by prepare") {
         support::model_of({1, 2}, [](auto const&, auto const& x, auto const& p, auto const&) {
             return std::vector{x[0] * exp(p[0] * p[1])};
         });
-    plain_program const program(model.g, model.rate, {1, 0, 2});
+    approximate_program const program(model.g, model.rate, {1, 0, 2});
     auto memory = program.memory();
     for (double const p : {0.5, 1.5}) {
         memory[2] = p;
@@ -77,7 +77,7 @@ TEST_CASE("divisions by one divisor are products, and mean the same") {
             return std::vector{x[0] / p[0], (x[0] + t) / p[0] / 3.0, x[0] / s, x[1] / s,
                                t / x[0],    p[0] / (2 * p[0]),       1 / s};
         });
-    plain_program const program(model.g, model.rate, {2, 0, 1});
+    approximate_program const program(model.g, model.rate, {2, 0, 1});
     auto memory = program.memory();
     double const t = 0.3;
     for (double const p : {0.9, -3.0}) {
