@@ -31,6 +31,14 @@ struct identification_report_options {
     std::function<bool()> keep_going{};
 };
 
+namespace detail {
+
+/// A share of the prior, widened a little where its bounds agree to many digits, so that it reads
+/// well; still an enclosure.
+SIVID_DECL range shown_share(interval const& volume);
+
+} // namespace detail
+
 /// What the page of an identification shows; `identification_page` makes the page.
 /// @param motion  the tubes to draw, or null
 /// @guarantee  every range that the page calls proved is the identification's own, or a tube's

@@ -25,9 +25,7 @@ namespace sivid::report {
 
 namespace detail {
 
-/// A share of the prior, widened a little where its bounds agree to many digits, so that it reads
-/// well; still an enclosure.
-[[nodiscard]] inline range shown_share(interval const& volume) {
+SIVID_DECL range shown_share(interval const& volume) {
     range const r = share_of_whole(volume);
     double const more = 5e-4 * r.hi;
     return r.lo == r.hi || r.hi - r.lo > more
