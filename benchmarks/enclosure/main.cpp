@@ -7,6 +7,7 @@
 #include "problems.hpp"
 #include "sensitivities.hpp"
 
+#include <sivid/enclosure/enclose.hpp>
 #include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/number/decimal.hpp>
@@ -19,6 +20,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -147,6 +149,35 @@ void measure_stiff(std::string const& name, std::optional<sivid::tableau> const&
 } // namespace
 
 /// Usage: sivid_benchmark_enclosure [--more] [part of a problem's name]
+namespace {
+
+/// What a motion by Taylor models says of a time between its steps.
+void measure_dense_output(benchmark::problem const& p) {
+    if (!benchmark::asked.wants(p.name)) return;
+    for (auto const& [name, method] :
+         {std::pair{"Taylor", std::optional<sivid::tableau>{}},
+          std::pair{"RK4", std::optional<sivid::tableau>{sivid::rk4()}}}) {
+        sivid::enclosure_options options;
+        options.tolerance = 1e-7;
+        options.method = method;
+        auto const enclosed = [&] {
+            return sivid::enclose(p.flow, p.initial, p.parameters, 0, p.end,
+                                  sivid::carried_set::taylor_model, sivid::for_method(options));
+        };
+        auto const motion = enclosed();
+        int const looks = 40;
+        double const look = benchmark::least_time([&] {
+            for (int k = 0; k < looks; ++k) (void)motion.at(motion.end_time() * (k + 0.5) / looks);
+        });
+        std::printf("%-26s %-6s enclosed in %7.3f ms, %4zu steps; at a time %6.3f ms\n",
+                    p.name.c_str(), name, benchmark::least_time([&] { (void)enclosed(); }),
+                    motion.spans().size(), look / looks);
+        std::fflush(stdout);
+    }
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
     for (int k = 1; k < argc; ++k) {
         if (std::string(argv[k]) == "--more") {
@@ -198,6 +229,7 @@ int main(int argc, char** argv) {
     measure<double>(7, 2, loomis(0.01), {12, 1.5e-6, 3e-4}, "2 ms, 1.06");
     measure<double>(7, 3, loomis(0.05), {12, 1.5e-6, 3e-4}, "8 ms, 1.06");
     measure<double>(7, 4, loomis(0.1), {8, 1e-5, 1e-4}, "15 ms, 1.19");
+    measure_dense_output(loomis(0.01));
 
     for (double const end : {10.0, 20.0}) {
         measure<double>(

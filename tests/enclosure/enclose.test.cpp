@@ -185,6 +185,31 @@ TEST_CASE("between its steps a motion is told in any order, as tight as at their
     CHECK(subset(starts, still.observe_at(1)));
 }
 
+TEST_CASE("a motion of many steps keeps some of its sets, and is told as well by them") {
+    for (auto const& method : {std::optional<tableau>{}, std::optional{rk4()}}) {
+        enclosure_options options{.tolerance = 1e-9, .maximum_step = 4e-3};
+        options.method = method;
+        // 3 sets 4 steps apart, 64 of them, and 47 that are 64 apart after four times of thinning
+        for (double const end : {0.04, 1.02, 12.0}) {
+            auto const motion =
+                enclose(turning(), starts, speeds, 0, end, carried_set::taylor_model, options);
+            REQUIRE(motion.complete());
+            CHECK(static_cast<double>(motion.spans().size()) >= end / 4e-3);
+            draws d(17);
+            for (int k = 0; k < 40; ++k) {
+                double const t = k < 2 ? end * k : d.uniform(0, end);
+                CAPTURE(end, t);
+                auto const now = motion.at(t);
+                for (double const p : {0.9, 1.0, 1.1}) CHECK(holds(now, {1, 0.05}, p, t));
+                CHECK(subset(now, motion.over(t, t)));
+            }
+            auto const own = enclose(turning(), starts, speeds, 0, 0.7 * end,
+                                     carried_set::taylor_model, options);
+            CHECK(width(motion.at(0.7 * end)) < 1.02 * width(own.at(0.7 * end)));
+        }
+    }
+}
+
 TEST_CASE("steps are relative to the span, be it a microsecond or days") {
     auto const f = turning();
     auto const width_after = [&](double span, auto const& enclosed) {

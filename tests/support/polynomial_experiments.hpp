@@ -7,6 +7,7 @@
 #include "support/random.hpp"
 
 #include <sivid/paving/response/response.hpp>
+#include <sivid/paving/search/exclusion_proof.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,16 @@ struct polynomial_experiments {
         std::vector<double> starts;
         for (std::size_t s = 0; s < known.size(); ++s) starts.push_back(d.uniform(-1, 1));
         return starts;
+    }
+    /// Of about half of the measurements, of either sign.
+    [[nodiscard]] std::vector<sivid::measurement_weight> draw_weights(draws& d) const {
+        std::vector<sivid::measurement_weight> weights;
+        for (std::size_t s = 0; s < known.size(); ++s) {
+            for (std::size_t y = 0; y < known[s]->bounds.size(); ++y) {
+                if (d.coin()) weights.push_back({s, y, d.uniform(-2, 2)});
+            }
+        }
+        return weights;
     }
     /// A part of the prior.
     [[nodiscard]] box part(draws& d) const {

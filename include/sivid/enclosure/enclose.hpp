@@ -33,9 +33,9 @@ namespace sivid {
 ///   ends before it begins
 /// @guarantee  every trajectory from the box of starts, for every parameter in its box and inputs
 ///   within their error bounds, lies in what `at` and `over` return
-/// @cost  one integration; `at` and `observe_at` cost a step, with Taylor models at most five and
-///   what it takes to set up a run. Taylor models keep each fourth set, with n states about
-///   \f$ 13 n^2 \f$ polynomials
+/// @cost  one integration; `at` and `observe_at` cost a step. With Taylor models they cost what it
+///   takes to set up a run and at most five steps, or 1/32 of all steps; up to 64 sets are kept for
+///   them, with n states about \f$ 13 n^2 \f$ polynomials each
 [[nodiscard]] SIVID_DECL enclosed_motion enclose(std::shared_ptr<flow const> f, box const& initial,
                                                  box const& parameters, double from, double to,
                                                  carried_set set = carried_set::taylor_model,

@@ -43,7 +43,7 @@ public:
                                                             for_span(options, to - from));
         auto run = motion->begin();
         while (run->time() < to) {
-            if (motion->spans_.size() % every == 0) motion->kept_.push_back(run->set());
+            motion->keep(run->set());
             double const before = run->time();
             if (!run->step(to)) break;
             motion->spans_.push_back({before, run->time(), run->swept()});
@@ -54,19 +54,17 @@ public:
 
     [[nodiscard]] box at(double t) const override {
         auto const& set = kept_before(t);
-        auto const run = set.time < t ? run_to(t) : nullptr;
-        if (spans_.empty()) return set.hull();
-        auto const& states = swept_at(t);
-        if (set.time < t && !run) return states;
-        return intersect((run ? run->set() : set).hull(), states);
+        if (!(set.time < t)) return states_at(t, &set);
+        auto const run = run_to(t);
+        return states_at(t, run ? &run->set() : nullptr);
     }
     [[nodiscard]] box observe_at(double t) const override {
         ensemble<interval> const family(initial_, parameters_);
         observer<interval> look(*flow_);
         look.set_ensemble(family);
-        auto seen = look.over(t, interval(t), at(t));
+        auto const run = run_to(t);
+        auto seen = look.over(t, interval(t), states_at(t, run ? &run->set() : nullptr));
         if constexpr (requires(Run & r) { r.outputs(); }) {
-            auto const run = run_to(t);
             if (!run) return seen;
             auto const outputs = run->outputs(); // as functions of the unknowns
             for (std::size_t y = 0; y < seen.size(); ++y) {
@@ -78,9 +76,24 @@ public:
     }
 
 private:
-    /// Steps from one set that is kept to the next: copies take less time than a tenth of a step.
-    static constexpr std::size_t every = 4;
+    /// Sets that are kept at most; when there are more, every second one is left out.
+    static constexpr std::size_t most_kept = 64;
 
+    /// The set before the next step, where it is one to be kept.
+    void keep(set_type const& set) {
+        if (spans_.size() % every_ != 0) return;
+        if (kept_.size() == most_kept) {
+            for (std::size_t k = 1; 2 * k < most_kept; ++k) kept_[k] = std::move(kept_[2 * k]);
+            kept_.resize(most_kept / 2);
+            every_ *= 2;
+        }
+        kept_.push_back(set);
+    }
+    /// @param set  the set at time t; null where no run ends there
+    [[nodiscard]] box states_at(double t, set_type const* set) const {
+        if (spans_.empty()) return set->hull();
+        return set ? intersect(set->hull(), swept_at(t)) : swept_at(t);
+    }
     [[nodiscard]] std::unique_ptr<Run> begin() const {
         auto const unknowns = normalised_unknowns(initial_, parameters_).variables;
         auto run = std::make_unique<Run>(*flow_, options_, unknowns, suggested_degree(unknowns));
@@ -104,7 +117,7 @@ private:
         auto const next =
             std::upper_bound(spans_.begin(), spans_.end(), t,
                              [](double time, swept_span const& s) { return time < s.to; });
-        return kept_[static_cast<std::size_t>(next - spans_.begin()) / every];
+        return kept_[static_cast<std::size_t>(next - spans_.begin()) / every_];
     }
     [[nodiscard]] box const& swept_at(double t) const {
         return std::lower_bound(spans_.begin(), spans_.end(), t,
@@ -117,7 +130,9 @@ private:
     double from_;
     enclosure_options options_;
     std::vector<swept_span> spans_;
-    std::vector<set_type> kept_; ///< before each step that is a multiple of `every`
+    /// Steps from one set that is kept to the next: a copy takes less than a tenth of a step.
+    std::size_t every_ = 4;
+    std::vector<set_type> kept_;
     set_type last_;
 };
 

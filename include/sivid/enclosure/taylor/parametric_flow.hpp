@@ -83,9 +83,7 @@ std::vector<typename parametric_flow<Model>::polynomial> parametric_flow<Model>:
     auto const t = polynomial::constant(set_.time);
     auto const inputs = widened(input_pieces<polynomial>(*flow_, set_.time, t), *flow_,
                                 input_errors(*flow_, set_.time, set_.time));
-    observe_.start(t);
-    observe_.advance(
-        0, [&x](std::size_t i, std::size_t) -> polynomial const& { return x[i]; }, inputs);
+    observe_.evaluate(t, x, inputs);
     std::vector<polynomial> result;
     for (std::size_t y = 0; y < flow_->channels(); ++y) {
         auto& p = result.emplace_back(observe_.output(y, 0));

@@ -63,9 +63,7 @@ public:
         auto const t = polynomial::constant(set.time);
         auto const inputs = widened(input_pieces<polynomial>(*flow_, set.time, t), *flow_,
                                     input_errors(*flow_, set.time, set.time));
-        observe_.start(t);
-        observe_.advance(
-            0, [&x](std::size_t i, std::size_t) -> polynomial const& { return x[i]; }, inputs);
+        observe_.evaluate(t, x, inputs);
         std::vector<polynomial> result;
         for (std::size_t y = 0; y < flow_->channels(); ++y) {
             result.push_back(observe_.output(y, 0));

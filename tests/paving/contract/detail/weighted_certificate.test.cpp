@@ -125,12 +125,7 @@ TEST_CASE("whatever the weights, no feasible point lies beyond a certified reach
         polynomial_experiments const e(d, 1 + d.below(2), 3, d.uniform(0, 0.3), 0.02, 0);
         auto const part = e.part(d);
         shared_unknowns const unknowns(e.known, part);
-        std::vector<measurement_weight> weights;
-        for (std::size_t s = 0; s < e.known.size(); ++s) {
-            for (std::size_t y = 0; y < 3; ++y) {
-                if (d.coin()) weights.push_back({s, y, d.uniform(-2, 2)});
-            }
-        }
+        auto const weights = e.draw_weights(d);
         std::size_t const j = d.below(2);
         bool const upwards = d.coin();
         double const reach = certified_reach(e.known, unknowns, weights, j, upwards);

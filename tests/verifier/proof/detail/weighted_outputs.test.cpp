@@ -22,12 +22,7 @@ TEST_CASE("a certificate of any weights excludes no feasible point and does excl
         polynomial_experiments const e(d, 1 + d.below(2), 3, d.uniform(0, 0.3), 0.02, 0);
         auto const part = e.part(d);
         shared_unknowns const unknowns(e.known, part);
-        std::vector<measurement_weight> weights;
-        for (std::size_t s = 0; s < e.known.size(); ++s) {
-            for (std::size_t y = 0; y < 3; ++y) {
-                if (d.coin()) weights.push_back({s, y, d.uniform(-2, 2)});
-            }
-        }
+        auto const weights = e.draw_weights(d);
         bool const none = weighted_outputs<interval>(e.known, part, weights).positive();
         excluded += none ? 1 : 0;
         also += none && certified_inflation(e.known, unknowns, weights) > 1 ? 1 : 0;
