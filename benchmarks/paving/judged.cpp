@@ -45,7 +45,7 @@ box reached_hull(sivid::identification_problem const& problem, sivid::approximat
                 held.prior[j] = interval(at);
                 auto p = best.parameters;
                 p[j] = at;
-                auto fit = sivid::fitter(held)({p, best.starts});
+                auto fit = sivid::approximate_fitter(held)({p, best.starts});
                 if (fit.inflation <= 1) {
                     fit.parameters[j] = at;
                     found = hull(found, sivid::point_box(fit.parameters));
@@ -88,7 +88,7 @@ void judge(char const* what, sivid::identification_problem const& problem,
         std::optional<box> reached;
         if (halvings > 0 && hulls) {
             auto const& posed = products ? products->map.problem() : problem;
-            auto const first = sivid::fitter(posed)();
+            auto const first = sivid::approximate_fitter(posed)();
             if (first.inflation <= 1) reached = reached_hull(posed, first, left, halvings);
         }
         auto const names = products ? products->map.side_names() : problem.choice.unknown;

@@ -39,7 +39,7 @@ double product_of_widths(box const& x) {
 bool fits(classic const& c, std::size_t j, double value) {
     auto pinned = c.problem;
     pinned.prior[j] = sivid::interval(value);
-    sivid::fitter fit(pinned);
+    sivid::approximate_fitter fit(pinned);
     return fit().inflation <= 1 || fit({c.truth}).inflation <= 1;
 }
 
@@ -82,7 +82,7 @@ double sampled_volume(classic const& c, sivid::subpaving const& paving, std::siz
     }
     double const inner = paving.inner_volume().lower();
     if (open.empty()) return inner;
-    sivid::fitter fit(c.problem);
+    sivid::approximate_fitter fit(c.problem);
     std::mt19937_64 random(1);
     std::discrete_distribution<std::size_t> which(volumes.begin(), volumes.end());
     auto const start = mid(c.problem.experiments[0].initial);

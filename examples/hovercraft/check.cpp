@@ -103,7 +103,7 @@ int run(check_command const& c) {
     options.sample = c.sample;
     options.seed = c.seed;
     options.seconds = c.budget.value_or(c.all ? 3600 : 10);
-    apply(c.how, options.certificate.enclosure);
+    apply(c.how, options.certificate);
     options.further_assumptions = assumptions_of(data, model, stored.effects);
     options.certificate.keep_going = [] { return !console::interrupted(); };
     auto const findings = work(problem, stored, options, c.multiprecision);

@@ -56,7 +56,7 @@ int run(diagnose_command const& c) {
 
     sivid::diagnosis_options options;
     options.seconds = 0.8 * left();
-    apply(c.how, options.test.run);
+    apply(c.how, options.test);
     options.test.workers = console::threads_for(c.threads);
     options.menu = recorded_manoeuvres(problem);
     for (auto& m : new_manoeuvres()) options.menu.push_back(std::move(m));

@@ -47,9 +47,9 @@ void apply(enclosing const& how, sivid::enclosure_options& options) {
 }
 
 void apply(enclosing const& how, sivid::run_options& run) {
-    apply(how, run.enclosure);
+    apply(how, static_cast<sivid::enclosure_options&>(run));
     run.set = set_of(how);
-    if (run.enclosure.method) run.make = &sivid::runge_kutta_run;
+    if (run.method) run.make = &sivid::runge_kutta_run;
 }
 
 sivid::enclosed_motion enclosed(enclosing const& how, std::shared_ptr<sivid::flow const> f,

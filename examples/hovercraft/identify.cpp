@@ -310,7 +310,7 @@ sivid::identification remembered(remembering_problem const& p,
 
 sivid::online_options online_options_of(identify_command const& c) {
     sivid::online_options options;
-    apply(c.how, options.test.run);
+    apply(c.how, options.test);
     if (c.accuracy) {
         options.refinement.accuracy = *c.accuracy;
         options.refinement.sufficient_ratio = 1;
@@ -367,7 +367,7 @@ int run(identify_command const& c) {
     console::progress_line progress(c.quiet || helps(c));
     sivid::identify_options options;
     options.algorithm = algorithm_of(c.algorithm);
-    apply(c.how, options.test.run);
+    apply(c.how, options.test);
     options.search.accuracy = c.accuracy.value_or(0.003);
     if (c.accuracy) options.search.sufficient_ratio = 1;
     if (c.boxes) options.search.boxes = *c.boxes;

@@ -63,9 +63,8 @@ public:
             return;
         }
         sivid::enclosure_options options;
-        // Shares of the duration; `for_span` stretches the one beyond a hundred units and shortens
-        // the other below one. A tube that needs shorter steps gets no further.
-        options.maximum_step = std::min(100.0, s.duration) / 300;
+        // A tube that needs shorter steps than a share of the duration gets no further.
+        options.maximum_step = s.duration / 300;
         options.minimum_step = 1e-5 * std::max(1.0, s.duration);
         options.method = method_of(c.how);
         auto const tube = enclosed(c.how, flow_, start, s.duration, options);

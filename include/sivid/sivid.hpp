@@ -140,8 +140,8 @@
 #include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
-#include <sivid/paving/judge/data_test.hpp>
-#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
+#include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/observer/interval_observer.hpp>
 #include <sivid/paving/online/online_update.hpp>
@@ -161,7 +161,7 @@
 #include <sivid/paving/relation/state_samples.hpp>
 #include <sivid/paving/relation/time_cell.hpp>
 #include <sivid/paving/response/combined_polynomial.hpp>
-#include <sivid/paving/response/linear_contraction.hpp>
+#include <sivid/paving/response/linear_contractor.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/response/misfit.hpp>
 #include <sivid/paving/response/relaxed_intersection.hpp>

@@ -28,7 +28,7 @@ private:
 /// How long work may go on: until a time, and as long as somebody does not say stop. Copies share
 /// one end; a copy is what all the options called `keep_going` take, for any thread.
 ///   work_limit const limit(options.seconds, options.keep_going);
-///   options.test.run.enclosure.keep_going = limit;
+///   options.test.keep_going = limit;
 class work_limit {
     using clock = std::chrono::steady_clock;
 

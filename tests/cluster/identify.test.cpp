@@ -72,7 +72,7 @@ TEST_CASE("identified with 0 to 3 helpers, planted problems are told the same, b
         options.search.batches = 1 + d.below(4);
         options.drawn_boxes = 100;
         if (d.below(4) == 0) options.algorithm = algorithm::report_2;
-        if (d.below(4) == 0) options.test.run.set = carried_set::doubleton;
+        if (d.below(4) == 0) options.test.set = carried_set::doubleton;
         CAPTURE(round, model, options.search.batches);
         auto const alone = text_of(planted.problem, sivid::identify(planted.problem, options));
         for (std::size_t const count : {0u, 1u, 3u}) {
@@ -107,7 +107,7 @@ TEST_CASE("a helper with another problem is refused by name, with a remedy") {
     expect_refusal(other, options, "data");
     expect_refusal(planted.problem, options, "other data");
     auto finer = options;
-    finer.test.run.enclosure.tolerance = 1e-9;
+    finer.test.tolerance = 1e-9;
     expect_refusal(planted.problem, finer, "data");
 }
 

@@ -16,9 +16,15 @@ using support::between;
 
 namespace {
 
+sivid::run_options of_degree(std::size_t degree) {
+    sivid::run_options run;
+    run.degree = degree;
+    return run;
+}
+
 /// Ended by boxes, so that a slow machine finds the same.
 sivid::measurement_ranking_options const patient{
-    .seconds = 1e6, .boxes = 4000, .accuracy = 0.05, .run = {.degree = 4}};
+    .seconds = 1e6, .boxes = 4000, .accuracy = 0.05, .run = of_degree(4)};
 
 /// x' = -p0 x from x0; y0 = x, y1 = p1 x, y2 = x / 100: what y2 tells, y0 has told.
 sivid::identification_problem fading(sivid::interval const& start, std::size_t experiments = 1) {

@@ -6,7 +6,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +77,7 @@ TEST_CASE("a union of sets is predicted as such") {
 TEST_CASE("measurements leave of a tube what they leave of the parameters and no less") {
     for (auto const& start : {sivid::interval(2.0), sivid::interval(1.95, 2.05)}) {
         auto const data = plain_problem::make(0, 0, start);
-        sivid::data_test test(data, {});
+        sivid::feasibility_test test(data, {});
         auto p = decay({{between(0.3, 0.5)}, {between(0.5, 0.8)}}, {sivid::interval(1.0)}, 3);
         auto const whole = sivid::predict(p, {.cells = 30});
         p.measured = [&](sivid::box const& parameters, std::function<bool()> const&) {

@@ -6,7 +6,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,7 @@ TEST_CASE("what is known already is used, and several goals are followed at once
 
 TEST_CASE("what was measured before sharpens a promise") {
     auto const data = plain_problem::make(0, 0, sivid::interval(2.0));
-    sivid::data_test test(data, {});
+    sivid::feasibility_test test(data, {});
     auto p = decay({{between(0.3, 0.8)}}, {between(0.5, 1.5)}, 3); // a poor experiment
     auto const goal = constant_of(p, 0);
     sivid::planned_measurements const plan{{1, 2, 3}, {0.05}};
@@ -214,7 +214,7 @@ TEST_CASE("two models are told apart where no pair of their motions is close, an
 
 TEST_CASE("each of two models hears its own data") {
     auto const data = plain_problem::make(0, 0, sivid::interval(2.0));
-    sivid::data_test test(data, {});
+    sivid::feasibility_test test(data, {});
     auto const feasible = plain_problem::feasible();
     auto known = decay({{between(0.3, 0.8)}}, {sivid::interval(1.0)}, 3);
     auto const free = decay({{between(feasible.upper() + 0.03, 0.9)}}, {sivid::interval(1.0)}, 3);

@@ -15,9 +15,15 @@ using support::between;
 
 namespace {
 
+sivid::run_options of_degree(std::size_t degree) {
+    sivid::run_options run;
+    run.degree = degree;
+    return run;
+}
+
 /// Ended by parts, so that a slow machine finds the same.
 sivid::rank_options const patient{
-    .seconds = 1e6, .parts = 2500, .accuracy = 0.05, .run = {.degree = 4}};
+    .seconds = 1e6, .parts = 2500, .accuracy = 0.05, .run = of_degree(4)};
 
 /// What a test knows of a problem: its outputs in closed form, sample by sample.
 struct known_problem {

@@ -5,7 +5,7 @@
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -126,7 +126,7 @@ TEST_CASE("without a feasible violation the answer is open") {
 
 TEST_CASE("parameters that the measurements refute leave a requirement") {
     auto const data = plain_problem::make();
-    sivid::data_test test(data, {});
+    sivid::feasibility_test test(data, {});
     auto const feasible = plain_problem::feasible(); // about [0.46, 0.54]
     auto p = decay({{between(0.3, 0.8)}}, {sivid::interval(1.0)}, 2);
     std::size_t asked = 0;

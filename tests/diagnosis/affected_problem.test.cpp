@@ -43,12 +43,12 @@ TEST_CASE("effects are switched on in the experiments in which they act") {
     // With the effect everywhere, and with one that acts in all experiments, runs are the same.
     auto const at = [&base](effect const& e) {
         auto const problem = affected(base, {e});
-        return fitter(problem).at({1.1, 0.3}, {{0, 0}, {0, 0.5}}).residuals;
+        return approximate_fitter(problem).at({1.1, 0.3}, {{0, 0}, {0, 0.5}}).residuals;
     };
     CHECK(at(drag) == at(only_within(drag, {"E1", "E2"})));
     auto const second = at(only_within(drag, {"E2"}));
     CHECK(second[1] == at(drag)[1]);
-    CHECK(second[0] == fitter(base).at({1.1}, {{0, 0}, {0, 0.5}}).residuals[0]);
+    CHECK(second[0] == approximate_fitter(base).at({1.1}, {{0, 0}, {0, 0.5}}).residuals[0]);
 }
 
 TEST_CASE("an effect that begins later is none before, and acts from then on") {
@@ -59,9 +59,9 @@ TEST_CASE("an effect that begins later is none before, and acts from then on") {
     auto const at = [&base](effect const& e) {
         auto const problem = affected(base, {e});
         problem.require_valid();
-        return fitter(problem).at({1.1, 0.3}, {{0, 0}, {0, 0.5}}).residuals;
+        return approximate_fitter(problem).at({1.1, 0.3}, {{0, 0}, {0, 0.5}}).residuals;
     };
-    auto const without = fitter(base).at({1.1}, {{0, 0}, {0, 0.5}}).residuals;
+    auto const without = approximate_fitter(base).at({1.1}, {{0, 0}, {0, 0.5}}).residuals;
     auto const always = at(drag);
     double const never = 9;
     for (double const t : {1.0, 1.23}) { // a sample, between two

@@ -42,9 +42,9 @@ TEST_CASE("what is asked whether to go on can stop a diagnosis for good") {
 
 TEST_CASE("runs have the clock of the diagnosis, and what was asked before") {
     diagnosis_effort none(0, {}, {});
-    CHECK_FALSE(none.test().witness.enclosure.keep_going());
+    CHECK_FALSE(none.test().witness.keep_going());
     diagnosis_effort effort(100, {}, {});
-    CHECK(effort.test().run.enclosure.keep_going());
+    CHECK(effort.test().keep_going());
     diagnosis_effort stopped(100, limited({}, [] { return false; }), {});
-    CHECK_FALSE(stopped.test().run.enclosure.keep_going());
+    CHECK_FALSE(stopped.test().keep_going());
 }

@@ -43,8 +43,8 @@ TEST_CASE("where no validated run gets to the end there is no witness") {
     guess.parameters = {1.0};
     for (auto const& x : p.experiments) guess.starts.push_back(mid(x.initial));
     CHECK(verify_at(p, guess).witness);
-    data_test_options brief;
-    brief.witness.enclosure.maximum_steps = 1;
+    feasibility_test_options brief;
+    brief.witness.maximum_steps = 1;
     auto const v = verify_at(p, guess, brief);
     CHECK(v.range.upper() == std::numeric_limits<double>::infinity());
     CHECK_FALSE(v.witness);

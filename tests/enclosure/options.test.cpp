@@ -19,15 +19,23 @@ TEST_CASE("an enclosure is cancelled when who is asked says so and never when no
 }
 
 TEST_CASE("steps go with spans that are no ordinary number of units, and only with these") {
-    enclosure_options const asked{.minimum_step = 1e-3, .maximum_step = 0.5};
+    enclosure_options const asked{.minimum_step = 1e-3};
+    CHECK(asked.longest_step() == 1);
     for (double const span : {0.0, 1.0, 30.0, 100.0}) {
         CHECK(for_span(asked, span).minimum_step == asked.minimum_step);
-        CHECK(for_span(asked, span).maximum_step == asked.maximum_step);
+        CHECK(for_span(asked, span).longest_step() == 1);
     }
     CHECK(for_span(asked, 0x1p-20).minimum_step == asked.minimum_step * 0x1p-20);
-    CHECK(for_span(asked, 0x1p-20).maximum_step == asked.maximum_step);
+    CHECK(for_span(asked, 0x1p-20).longest_step() == 1);
     CHECK(for_span(asked, 1e6).minimum_step == asked.minimum_step);
-    CHECK(for_span(asked, 1e6).maximum_step == 1e4 * asked.maximum_step);
+    CHECK(for_span(asked, 1e6).longest_step() == 1e4);
+}
+
+TEST_CASE("a longest step that was asked for is taken as it is") {
+    enclosure_options const asked{.maximum_step = 0.5};
+    for (double const span : {0.0, 0x1p-20, 30.0, 1e6}) {
+        CHECK(for_span(asked, span).longest_step() == 0.5);
+    }
 }
 
 TEST_CASE("a method is asked for what its order reaches") {

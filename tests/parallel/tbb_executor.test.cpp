@@ -88,7 +88,7 @@ TEST_CASE("a search finds the same with 1, 2 and 3 threads, box for box") {
         options.drawn_boxes = 100;
         auto const kind = d.below(5);
         if (kind == 0) options.algorithm = algorithm::report_2;
-        if (kind == 1) options.test.run.set = carried_set::doubleton;
+        if (kind == 1) options.test.set = carried_set::doubleton;
         CAPTURE(round, model, kind, options.search.batches);
         auto const alone = identify(planted.problem, options);
         CHECK(contains(alone.hull, planted.truth));

@@ -64,7 +64,7 @@ std::vector<double> spanned(classic const& c, identification const& found) {
                 double const inward = share * width(found.hull[j]);
                 double const value = side == 0 ? end + inward : end - inward;
                 pinned.prior[j] = interval(value);
-                fitter fit(pinned);
+                approximate_fitter fit(pinned);
                 auto here = fit();
                 if (!(here.inflation < 0.9999)) here = fit({c.truth});
                 if (!(here.inflation < 0.9999)) continue;

@@ -99,7 +99,7 @@ void sweep(std::uint64_t seed, int problems, std::size_t boxes) {
         auto const planted = support::plant(d, model, how);
         CAPTURE(seed, round, model, which, how.experiments, how.outliers, how.spread);
         auto options = quick(a, d.coin() ? 1.0 / 8 : 1.0 / 32, boxes);
-        if (d.below(4) == 0) options.test.run.set = carried_set::doubleton;
+        if (d.below(4) == 0) options.test.set = carried_set::doubleton;
         auto const found = identify(planted.problem, options);
         check_claims(planted, found, d, how.outliers);
         consistent += found.verdict == verdict::consistent ? 1 : 0;

@@ -268,7 +268,7 @@ TEST_CASE("a result says what ended the refinement, and calls itself complete on
         o = all;
         o.refinement.seconds = 0;
         CHECK(reason_of(o, idle) == stop_reason::time_budget);
-        o.test.run.enclosure.keep_going = [] { return false; };
+        o.test.keep_going = [] { return false; };
         CHECK(reason_of(o, idle) == stop_reason::cancelled);
     }
     online_identification impossible(plain_problem::make(2, 0), all);
@@ -290,7 +290,7 @@ TEST_CASE("an update ends in time but for a run that was begun, and what it lack
     auto options = quick();
     options.refinement.seconds = 0.02;
     bool slow = true; // one run takes longer than an update may
-    options.test.run.enclosure.keep_going = [&slow] {
+    options.test.keep_going = [&slow] {
         if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(20));
         return true;
     };

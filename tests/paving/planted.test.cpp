@@ -89,7 +89,7 @@ identify_options small_budget(draws& d) {
     o.only_hulls = d.below(4) == 0;
     o.drawn_boxes = 30 + d.below(200);
     o.test.cut = d.below(5) > 0;
-    if (d.below(6) == 0) o.test.run.set = carried_set::doubleton;
+    if (d.below(6) == 0) o.test.set = carried_set::doubleton;
     if (d.below(12) == 0) o.algorithm = algorithm::report_2;
     return o;
 }

@@ -3,7 +3,7 @@
 // is said to explain the data does, by the recorded inputs.
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation.hpp>
-#include <sivid/verifier/proof/detail/plain_campaign.hpp>
+#include <sivid/verifier/proof/detail/proved_campaign.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
@@ -95,7 +95,7 @@ identify_options brief(carried_set set = carried_set::taylor_model) {
     o.search.boxes = 300;
     o.search.seconds = 20;
     o.search.accuracy = 0.02;
-    o.test.run.set = set;
+    o.test.set = set;
     return o;
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("certificates hold for all inputs where they refute, for the recorded 
     for (std::uint64_t seed = 51; seed < 55; ++seed) {
         auto const p = plant(seed, seed % 2 == 0 ? 1 : -1, 0.1);
         CAPTURE(seed);
-        plain_campaign<interval> campaign(p.problem, {}, {});
+        proved_campaign<interval> campaign(p.problem, {}, {});
         auto const truth = point_box(p.truth);
         CHECK(campaign.judge(campaign.learn(truth), truth) != run_finding::refuted);
         // Far away is refuted whatever the input did.
@@ -198,7 +198,7 @@ TEST_CASE("certificates hold for all inputs where they refute, for the recorded 
         auto const& far = p.truth[0] < 1.2 ? away : near;
         CHECK(campaign.judge(campaign.learn(far), far) == run_finding::refuted);
         auto const easy = plant(seed + 50, 0, 0.02, 0.1);
-        plain_campaign<interval> other(easy.problem, {box{interval(easy.start)}}, {});
+        proved_campaign<interval> other(easy.problem, {box{interval(easy.start)}}, {});
         auto const there = point_box(easy.truth);
         CHECK(other.judge(other.learn(there), there) == run_finding::explained);
     }

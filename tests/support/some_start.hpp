@@ -54,7 +54,7 @@ inline bool some_start_explains(planted_problem const& planted, std::size_t e,
                 auto& bounds = held.experiments[0].measurements;
                 bounds = kept;
                 for (int round = 0; round < 3; ++round) {
-                    auto const fit = sivid::fitter(held)({p, {start}});
+                    auto const fit = sivid::approximate_fitter(held)({p, {start}});
                     if (fit.starts.empty()) break;
                     if (explains(fit.starts[0])) return true;
                     // Where bounds are narrower than the fit's simulation is exact they are moved

@@ -51,7 +51,7 @@ TEST_CASE("the outflow is a square root, and stays defined where a tank runs dry
     tanks::diagnose_command c;
     auto const problem = tanks::tank_problem(tanks::read_experiment(file, c));
     // No pump: both tanks drain, and every level stays finite.
-    auto const fit = sivid::fitter(problem).at({0.1, 0.1, 0.05}, {{6, 5}});
+    auto const fit = sivid::approximate_fitter(problem).at({0.1, 0.1, 0.05}, {{6, 5}});
     REQUIRE(fit.residuals.size() == 1);
     double const last = 5 + 0.2 * fit.residuals[0].back();
     CHECK(std::abs(last) < 0.01);
@@ -69,7 +69,8 @@ TEST_CASE("water over a rim is lost but for its share", "[tanks]") {
     auto const problem = sivid::affected(base, {tanks::overflow()});
     // Inflow 0.25 V/s; the upper tank would settle at 25 V. With a rim at 9 V it spills 0.1 V/s.
     auto const level = [&](double share) {
-        auto const fit = sivid::fitter(problem).at({0.05, 0.09, 0.05, 9, share, 19}, {{6, 5}});
+        auto const fit =
+            sivid::approximate_fitter(problem).at({0.05, 0.09, 0.05, 9, share, 19}, {{6, 5}});
         return 5 + 0.2 * fit.residuals.at(0).back();
     };
     auto const root = [](double inflow) { return std::pow(inflow / 0.09, 2); };

@@ -113,7 +113,8 @@ private:
         auto const problem = sivid::affected(p, effects);
         std::vector<std::vector<double>> starts;
         for (auto const& e : problem.experiments) starts.push_back(sivid::mid(e.initial));
-        return console::root_mean_square(problem, sivid::fitter(problem).at(parameters, starts));
+        return console::root_mean_square(problem,
+                                         sivid::approximate_fitter(problem).at(parameters, starts));
     }
 
     std::vector<sivid::identification_problem> used_, kept_;
@@ -226,7 +227,7 @@ void add_starts(report::page& page, sivid::diagnosis_run const& run,
                 double const centre = sivid::mid(e.initial[1]);
                 e.initial[1] = sivid::interval(centre - v, centre + v);
             }
-            auto const fit = sivid::fitter(problem)({link.parameters});
+            auto const fit = sivid::approximate_fitter(problem)({link.parameters});
             double const bound = sivid::rad(problem.experiments.front().measurements[0].bound);
             row.push_back(millimetres(bound * fit.inflation));
         }

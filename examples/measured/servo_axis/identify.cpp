@@ -7,7 +7,7 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/work_limit.hpp>
 
@@ -59,11 +59,11 @@ public:
     }
 
     [[nodiscard]] sivid::approximate_fit operator()() {
-        auto best = sivid::fitter(points_)({sivid::mid(problem_.prior)});
+        auto best = sivid::approximate_fitter(points_)({sivid::mid(problem_.prior)});
         for (int round = 0; round < 4 && best.inflation > 0.98; ++round) {
             if (best.parameters.empty()) break;
             move_starts(best.parameters);
-            auto next = sivid::fitter(points_)({best.parameters});
+            auto next = sivid::approximate_fitter(points_)({best.parameters});
             if (!(next.inflation < best.inflation)) break;
             bool const little = next.inflation > 0.97 * best.inflation;
             best = std::move(next);
@@ -219,11 +219,12 @@ identify_axis(posed_problem const& posed, double accuracy, double budget,
     note("fitting by plain simulation");
     auto guess = start_fitter(problem)();
     // Point runs through the kink of the dry friction need short steps, but no wide sets.
-    sivid::data_test_options fine;
-    fine.run.enclosure = {
-        .order = 12, .tolerance = 1e-9, .relative_tolerance = 1e-3, .minimum_step = 1e-6};
-    fine.run.set = sivid::carried_set::doubleton;
-    sivid::data_test verifier(problem, fine);
+    sivid::feasibility_test_options fine;
+    fine.tolerance = 1e-9;
+    fine.relative_tolerance = 1e-3;
+    fine.minimum_step = 1e-6;
+    fine.set = sivid::carried_set::doubleton;
+    sivid::feasibility_test verifier(problem, fine);
     if (!guess.parameters.empty()) {
         note("verifying the fit by validated integration");
         result.witness = sivid::verify_witness(verifier, problem, guess.parameters, guess.starts);

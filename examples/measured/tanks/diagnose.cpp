@@ -45,7 +45,7 @@ struct chain_link {
 /// Least squares from where the candidate was fitted and from the centre, the better one.
 sivid::approximate_fit squares_of(sivid::identification_problem const& problem,
                                   std::vector<double> const& from) {
-    sivid::fitter fit(problem);
+    sivid::approximate_fitter fit(problem);
     auto best = fit({from}, sivid::fit_norm::squares);
     auto other = sivid::fit(problem, sivid::fit_norm::squares);
     return other.squares < best.squares ? other : best;
@@ -147,12 +147,14 @@ validity validity_of(sivid::identification_problem const& problem, double second
     std::size_t low = 0, high = times.size() - 1; // explained until low; not until high
     while (high - low > 1) {
         auto const middle = (low + high) / 2;
-        (sivid::fitter(until(problem, times[middle]))().inflation <= 0.99 ? low : high) = middle;
+        (sivid::approximate_fitter(until(problem, times[middle]))().inflation <= 0.99 ? low
+                                                                                      : high) =
+            middle;
     }
     result.fitted_until = times[low];
     for (std::size_t back = 0; back < 3; ++back) {
         auto const part = until(problem, times[low - std::min(low, 5 * back)]);
-        if (sivid::verify_at(part, sivid::fitter(part)()).range.upper() > 1) continue;
+        if (sivid::verify_at(part, sivid::approximate_fitter(part)()).range.upper() > 1) continue;
         result.holds_until = part.experiments[0].measurements.back().time;
         break;
     }

@@ -16,8 +16,8 @@
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/posed_search.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
 
 #include <cstddef>
@@ -114,7 +114,7 @@ private:
     identify_options options_;
     std::string also_;
     std::optional<paving_detail::posed_search> search_;
-    std::optional<box_server<data_test>> boxes_;
+    std::optional<box_server<feasibility_test>> boxes_;
 };
 
 } // namespace identify_detail
@@ -137,11 +137,12 @@ private:
                                              traffic* spent = nullptr) {
     released_at_end idle(others);
     auto const mine = identify_detail::identity_of(problem, options, also);
-    options.invert_by = [&](data_test& test, box const& prior, inversion_options const& search,
+    options.invert_by = [&](feasibility_test& test, box const& prior,
+                            inversion_options const& search,
                             std::optional<approximate_fit> const& fit,
                             std::optional<window_contraction> const& windows) {
         if (windows && windows->empty()) return sivid::invert(test, prior, search);
-        box_server<data_test> boxes(test, prior);
+        box_server<feasibility_test> boxes(test, prior);
         working_coordinator all(
             others, identify_detail::about(problem, mine, fit, windows), mine,
             [&boxes](worker&, std::string_view request) { return boxes(request); });

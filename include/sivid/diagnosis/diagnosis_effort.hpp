@@ -29,10 +29,10 @@ public:
     /// @param seconds   for everything
     /// @param test      how boxes are enclosed
     /// @param progress  called with what is being done; false ends the diagnosis; may be empty
-    diagnosis_effort(double seconds, data_test_options test,
+    diagnosis_effort(double seconds, feasibility_test_options test,
                      std::function<bool(std::string const&)> progress)
         : all_(seconds), test_(std::move(test)), progress_(std::move(progress)) {
-        auto const asked = test_.run.enclosure.keep_going;
+        auto const asked = test_.keep_going;
         test_ = limited(std::move(test_), [this, asked] { return (!asked || asked()) && go_on(); });
     }
     diagnosis_effort(diagnosis_effort const&) = delete;
@@ -42,7 +42,7 @@ public:
     [[nodiscard]] double left() const { return std::max(0.0, all_ - seconds()); }
     [[nodiscard]] bool stopped() const { return stopped_; }
     /// With the clock of the diagnosis, so that no run outlasts it.
-    [[nodiscard]] data_test_options const& test() const { return test_; }
+    [[nodiscard]] feasibility_test_options const& test() const { return test_; }
 
     /// Whether there is time for a step.
     bool go_on(std::string const& what) {
@@ -100,7 +100,7 @@ private:
     }
 
     double all_;
-    data_test_options test_;
+    feasibility_test_options test_;
     std::function<bool(std::string const&)> progress_;
     std::string doing_;
     std::mutex asking_;

@@ -15,7 +15,7 @@
 #include <sivid/model/effect.hpp>
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/relation/relation_finding.hpp>
 
 #include <cstddef>
@@ -48,7 +48,7 @@ struct diagnosis_options {
     choice_options choice{};
     /// How boxes of parameters are enclosed. Its workers run candidates and scenarios at once; the
     /// result is that of one thread, but for what a limit of time cuts off.
-    data_test_options test{};
+    feasibility_test_options test{};
     std::vector<manoeuvre> menu{}; ///< from which the next experiment is proposed
     /// Called with what is being done, by one thread at a time; false ends with what is known so
     /// far.
@@ -83,7 +83,8 @@ struct diagnosis_run {
 ///   than measured. Nothing else of the diagnosis changes
 /// @cost  a search for the inflation of each of the two, at most `seconds`
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds = 6,
-                                 data_test_options const& test = {}, std::size_t boxes = 120);
+                                 feasibility_test_options const& test = {},
+                                 std::size_t boxes = 120);
 
 } // namespace sivid
 

@@ -9,7 +9,7 @@
 #include <sivid/diagnosis/gap/verified_inflation.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/judge/witness.hpp>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ namespace sivid {
 /// @cost  one validated run per experiment
 [[nodiscard]] inline verified_inflation verify_at(identification_problem const& problem,
                                                   approximate_fit const& guess,
-                                                  data_test_options const& options = {}) {
+                                                  feasibility_test_options const& options = {}) {
     verified_inflation result;
     if (guess.parameters.size() != problem.prior.size()) return result;
     auto at = problem;
@@ -61,7 +61,7 @@ namespace sivid {
         fixed.erase(fixed.begin());
     }
     auto const everything = box_explorer::without_limit(resolved.problem);
-    data_test runs(everything, options);
+    feasibility_test runs(everything, options);
     verified_witness witness;
     result.range = inflation_at(runs, resolved.problem, resolved.problem.prior, starts, witness);
     if (uncertain) result.range = interval_traits<interval>::bounds(0, result.range.upper());

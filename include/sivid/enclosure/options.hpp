@@ -31,12 +31,12 @@ struct enclosure_options {
     /// tolerance * (1 + |x_i|) + relative_tolerance * width of the enclosure of x_i.
     double tolerance = 1e-13;
     double relative_tolerance = 1e-4;
-    /// Steps are never shorter than this, except where an input's knot or the end is closer, or a
-    /// kink is crossed. This and the largest step are in the unit of time of the model, for spans
-    /// of one to a hundred units. Whatever knows its span takes both relative to it where it is
-    /// shorter or longer (`for_span`), so that a model may count in microseconds or days.
+    /// Steps are never shorter than this share of the span (or of one unit of time, where the span
+    /// is longer), except where an input's knot or the end is closer, or a kink is crossed.
     double minimum_step = 1e-7;
-    double maximum_step = 1.0;
+    /// Steps are never longer [the model's unit of time]; nothing: than a hundredth of the span, or
+    /// one unit if that is longer. So a model may count in microseconds or days.
+    std::optional<double> maximum_step = std::nullopt;
     std::size_t maximum_steps = 1'000'000;
     /// Give up when the enclosure of a state is wider than this many times the state's own range.
     double widest = 2.0;
@@ -48,14 +48,15 @@ struct enclosure_options {
     std::function<bool()> keep_going = nullptr;
 
     [[nodiscard]] bool cancelled() const { return keep_going && !keep_going(); }
+    [[nodiscard]] double longest_step() const { return maximum_step.value_or(1.0); }
 };
 
-/// The steps of a span of time: of a span of less than one unit the smallest step is as much
-/// shorter, of more than a hundred the largest as much longer.
+/// The options with the steps of a span in units of time, for what does not know the span: engines
+/// take `minimum_step` as it is, and steps of at most one unit where none is asked for.
 /// @param span  in the unit of time of the model
 [[nodiscard]] inline enclosure_options for_span(enclosure_options options, double span) {
     if (span > 0) options.minimum_step *= std::min(1.0, span);
-    options.maximum_step *= std::max(1.0, span / 100);
+    if (!options.maximum_step) options.maximum_step = std::max(1.0, span / 100);
     return options;
 }
 

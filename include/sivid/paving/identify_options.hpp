@@ -6,7 +6,7 @@
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/inversion_options.hpp>
-#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace sivid {
 
-class data_test;
+class feasibility_test;
 
 /// How the prior is searched.
 enum class algorithm {
@@ -29,7 +29,7 @@ enum class algorithm {
 struct identify_options {
     sivid::algorithm algorithm = sivid::algorithm::contracting;
     inversion_options search{.proof_bytes = std::size_t{1} << 25};
-    data_test_options test;
+    feasibility_test_options test;
     /// Stop when the hulls no longer shrink; the paving stays coarse.
     bool only_hulls = false;
     /// Contract the prior first, unless slower inputs have done so. Where runs over it reach less
@@ -59,7 +59,7 @@ struct identify_options {
     std::shared_ptr<identification_state const> resume = nullptr;
     /// Searches in place of `invert`, with the same result: on many machines, say. It is told the
     /// fit and the windows by which the test was prepared.
-    std::function<inversion(data_test&, box const& prior, inversion_options const&,
+    std::function<inversion(feasibility_test&, box const& prior, inversion_options const&,
                             std::optional<approximate_fit> const&,
                             std::optional<window_contraction> const&)>
         invert_by = nullptr;

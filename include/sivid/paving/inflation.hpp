@@ -8,7 +8,7 @@
 #include <sivid/model/structure/combination.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct inflation_options {
     std::size_t further_work = 0;
     bool only_verdict = false;        ///< stop as soon as lower > 1 or upper <= 1
     std::function<bool()> keep_going; ///< false stops the search with what is proved until then
-    data_test_options test;
+    feasibility_test_options test;
 };
 
 /// What was proved about the inflation of a problem.

@@ -29,7 +29,7 @@ struct assessment {
     std::shared_ptr<Knowledge const> knowledge = nullptr;
     /// What was known did not suffice to say more; the test could learn about this box.
     bool blind = false;
-    /// What learning about this box took, in a unit of the test's (data_test: integrations).
+    /// What learning about this box took, in a unit of the test's (feasibility_test: integrations).
     std::size_t cost = 0;
     /// How to prove that nothing of the box but `rest` belongs to the set; may be left out.
     exclusion_proof proof = {};

@@ -33,7 +33,7 @@ TEST_CASE("easy problems are fitted within their bounds, outliers and unknown st
                 auto const planted = support::plant(
                     d, model,
                     {.experiments = 2, .samples = 12, .outliers = outliers, .spread = spread});
-                fitter fit(planted.problem);
+                approximate_fitter fit(planted.problem);
                 auto const found = fit();
                 ++tried;
                 REQUIRE(found.parameters.size() == planted.truth.size());
@@ -57,7 +57,7 @@ TEST_CASE("easy problems are fitted within their bounds, outliers and unknown st
 TEST_CASE("a fit from a given point stays within the prior and improves on it") {
     draws d(342);
     auto const planted = support::plant(d, 0, {.samples = 15, .noise = 0.01});
-    fitter fit(planted.problem);
+    approximate_fitter fit(planted.problem);
     auto const found = fit({{100, -100}}); // far outside: clamped
     CHECK(contains(planted.problem.prior, found.parameters));
     CHECK(found.inflation < 1.2);
@@ -67,7 +67,7 @@ TEST_CASE("a rough look at a point misses little of the bounds") {
     draws d(343);
     for (std::size_t model = 0; model < support::planted_models; ++model) {
         auto const planted = support::plant(d, model, {.experiments = 2, .samples = 15});
-        fitter fit(planted.problem);
+        approximate_fitter fit(planted.problem);
         for (auto const& parameters : {planted.truth, mid(planted.problem.prior)}) {
             auto const starts = middles(planted.problem);
             auto const rough = fit.roughly_at(parameters, starts);
@@ -85,7 +85,7 @@ TEST_CASE("data that nothing explains give a finite inflation above one") {
     draws d(343);
     auto planted = support::plant(d, 0, {});
     planted.problem.experiments[0].measurements[1].bound = support::between(50, 51);
-    auto const found = fitter(planted.problem)();
+    auto const found = approximate_fitter(planted.problem)();
     CHECK(std::isfinite(found.inflation));
     CHECK(found.inflation > 1);
 }
@@ -104,7 +104,7 @@ TEST_CASE("a simulation that fails everywhere gives no guess, and ends") {
     e.initial = box{interval(1.0)};
     e.measurements = {{1, 0, support::between(0, 1)}};
     problem.experiments = {e};
-    auto const found = fitter(problem)();
+    auto const found = approximate_fitter(problem)();
     CHECK(found.parameters.empty());
     CHECK(found.inflation == HUGE_VAL);
 }
@@ -118,7 +118,7 @@ TEST_CASE("the parameters of a simulated hovercraft are found again") {
         options.outlier_fraction = outliers ? 0.07 : 0;
         auto problem = support::hovercraft_campaign(d, {}, options);
         problem.choice.fixed["m"] = interval(1.27);
-        fitter fit(problem);
+        approximate_fitter fit(problem);
         auto const found = fit();
         CHECK(found.inflation < 1);
         auto const& names = problem.choice.unknown;
@@ -149,7 +149,7 @@ TEST_CASE("unknown delays of an input and of channels are fitted") {
             };
         }
         auto problem = support::hovercraft_campaign(d, effect, {});
-        CHECK(fitter(problem)().inflation > 2);
+        CHECK(approximate_fitter(problem)().inflation > 2);
         problem.model.about.constants.push_back({"tau", "s", literal{interval(0.0), 0.0}});
         auto const tau = problem.model.about.constants.size() - 1;
         if (input) {
@@ -162,7 +162,7 @@ TEST_CASE("unknown delays of an input and of channels are fitted") {
         for (std::size_t j = 0; j < 3; ++j) prior[j] = problem.prior[j];
         prior[3] = support::between(0, 0.5);
         problem.prior = prior;
-        auto const found = fitter(problem)();
+        auto const found = approximate_fitter(problem)();
         CHECK(found.inflation < 1);
         CHECK(std::abs(found.parameters[3] - 0.15) < 0.02);
     }
@@ -194,7 +194,7 @@ TEST_CASE("a fit that is told to stop ends with the best it has") {
     double last = HUGE_VAL;
     for (std::size_t const most : {0u, 1u, 10u, 100u, 1000000u}) {
         std::size_t asked = 0;
-        auto const found = fitter(planted.problem, [&] { return ++asked <= most; })();
+        auto const found = approximate_fitter(planted.problem, [&] { return ++asked <= most; })();
         CAPTURE(most);
         CHECK((found.parameters.empty() || contains(planted.problem.prior, found.parameters)));
         CHECK(found.inflation <= last);
@@ -202,7 +202,7 @@ TEST_CASE("a fit that is told to stop ends with the best it has") {
         CHECK((asked <= most || asked < most + 100)); // it is heard
     }
     CHECK(last <= 1);
-    CHECK(fitter(planted.problem, [] { return false; })().parameters.empty());
+    CHECK(approximate_fitter(planted.problem, [] { return false; })().parameters.empty());
 }
 
 TEST_CASE(
@@ -216,7 +216,7 @@ TEST_CASE(
                 auto const planted = support::plant(
                     d, model,
                     {.experiments = 2, .samples = 12, .outliers = outliers, .spread = spread});
-                fitter fit(planted.problem);
+                approximate_fitter fit(planted.problem);
                 auto const found = fit({mid(planted.problem.prior), middles(planted.problem)});
                 REQUIRE(found.parameters.size() == planted.truth.size());
                 CHECK(contains(planted.problem.prior, found.parameters));
@@ -242,27 +242,27 @@ TEST_CASE(
 TEST_CASE("the least inflation of a decay lies at a kink, and is met") {
     auto const prior = between(0.25, 3);
     auto const problem = support::decay(prior, 0.5, 0.16, 0.0078125);
-    fitter fit(problem);
+    approximate_fitter fit(problem);
     for (double const from : {0.25, 1.0, 3.0}) {
         auto const found = fit({{from}, {{1}}});
         CHECK_THAT(found.inflation,
                    WithinAbs(support::decay_inflation(prior, 0.5, 0.16, 0.0078125), 1e-4));
     }
     int steps = 0;
-    (void)fitter(problem, [&steps] { return ++steps < 3; })({{0.25}, {{1}}});
+    (void)approximate_fitter(problem, [&steps] { return ++steps < 3; })({{0.25}, {{1}}});
     CHECK(steps >= 3); // a fit that is told to stop asks once more at most where it winds up
     CHECK(steps <= 4);
 }
 
 TEST_CASE("a descent from outside starts at the nearest point, one that cannot simulate ends") {
     auto problem = support::decay(between(0.25, 3), 0.5, 0.25, 0.0078125);
-    CHECK(fitter(problem)({{100}, {{5}}}).inflation < 1e-3);
+    CHECK(approximate_fitter(problem)({{100}, {{5}}}).inflation < 1e-3);
     problem.model =
         support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
             return std::vector{p[0] * x[0] * x[0]};
         });
     problem.prior = box{between(5, 6)};
-    auto const found = fitter(problem)({{5.5}, {{1}}});
+    auto const found = approximate_fitter(problem)({{5.5}, {{1}}});
     CHECK(found.parameters.empty());
     CHECK(found.inflation == HUGE_VAL);
 }
@@ -273,7 +273,7 @@ TEST_CASE("an input that acts late is followed, and its delay found") {
     problem.model = with(problem.model, std::vector<effect>{small_campaign::catalogue()[3]});
     problem.choice.unknown.push_back("late.tau");
     problem.prior = box{problem.prior[0], between(0, 0.5)};
-    auto const found = fitter(problem)({{0.8, 0.35}, middles(problem)});
+    auto const found = approximate_fitter(problem)({{0.8, 0.35}, middles(problem)});
     CHECK(found.inflation <= 0.62); // the deviations fill 60 % of the bounds
     CHECK_THAT(found.parameters[0], WithinAbs(1, 0.02));
     CHECK_THAT(found.parameters[1], WithinAbs(0.2, 0.02));
@@ -281,7 +281,7 @@ TEST_CASE("an input that acts late is followed, and its delay found") {
 
 TEST_CASE("nothing unknown: the point is looked at") {
     auto const problem = support::decay(interval(0.6931471805599453), 0.5, 0.5, 0.0625);
-    auto const found = fitter(problem)({{0.6931471805599453}, {{1}}});
+    auto const found = approximate_fitter(problem)({{0.6931471805599453}, {{1}}});
     CHECK_THAT(found.inflation, WithinAbs(4, 1e-6));
 }
 

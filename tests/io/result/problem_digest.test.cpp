@@ -74,9 +74,10 @@ TEST_CASE("whatever decides a search changes the digest, budgets and threads do 
     matters([](o& x) { x.search.keep_outside = false; });
     matters([](o& x) { x.test.sharp_enough = 0.25; });
     matters([](o& x) { x.test.witness_steps = 1000; });
-    matters([](o& x) { x.test.run.set = carried_set::doubleton; });
-    matters([](o& x) { x.test.run.enclosure.tolerance = 1e-9; });
-    matters([](o& x) { x.test.witness.enclosure.order = 9; });
+    matters([](o& x) { x.test.set = carried_set::doubleton; });
+    matters([](o& x) { x.test.tolerance = 1e-9; });
+    matters([](o& x) { x.test.maximum_step = 1.0; });
+    matters([](o& x) { x.test.witness.order = 9; });
     CHECK(seen.insert(problem_digest(problem, options, "data")).second);
 
     auto budgets = options;

@@ -2,8 +2,8 @@
 #include <sivid/paving/contract/window_contraction.hpp>
 
 #include <sivid/paving/identify.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/prior_contraction.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
@@ -207,7 +207,7 @@ TEST_CASE("windows are carried by Taylor models and series or not at all") {
     other.run.set = carried_set::doubleton;
     CHECK(contract_by_windows(p, other).windows == 0);
     window_options method;
-    method.run.enclosure.method = rk4();
+    method.run.method = rk4();
     CHECK(contract_by_windows(p, method).windows == 0);
 }
 
@@ -224,7 +224,7 @@ TEST_CASE("windows end in time and when told to") {
 TEST_CASE("starts that are decimals are known and those of which little is known hinder") {
     auto p = support::swinging(6, 0.95, 7);
     auto const hinder = [&p] {
-        data_test test(p, {});
+        feasibility_test test(p, {});
         return paving_detail::starts_hinder(test, p);
     };
     p.experiments[0].initial[0] = interval(std::nextafter(0.5, 0.0), std::nextafter(0.5, 1.0));

@@ -8,7 +8,7 @@ using namespace sivid;
 
 TEST_CASE("a witness is verified with what it violates, or refused") {
     auto const check = [](identification_problem const& problem, double rate, double start) {
-        data_test test(problem, {});
+        feasibility_test test(problem, {});
         return verify_witness(test, problem, {rate}, {{start}});
     };
     auto const sound = plain_problem::make();
@@ -56,27 +56,27 @@ struct trembling : plain_problem::decay {
 TEST_CASE("a run that trembles ends by its number of steps, one that comes to rest does not") {
     auto problem = plain_problem::make();
     problem.experiments[0].outliers = 6; // misfits end nothing
-    data_test_options options;
+    feasibility_test_options options;
     options.witness_steps = 300;
     auto const outputs_of = [&](recorded_model model) {
         problem.model = std::move(model);
-        data_test test(problem, options);
+        feasibility_test test(problem, options);
         return test.run_finely(0, problem.experiments[0].initial, {interval(1.0)})->outputs();
     };
     CHECK(outputs_of(record_model<trembling>()) < 6);
     CHECK(outputs_of(record_model<resting>()) == 6); // x = 2 - t is at rest from t = 2 on
     // A smooth run of as many measurements does not notice.
     auto const smooth = plain_problem::make();
-    data_test other(smooth, options);
+    feasibility_test other(smooth, options);
     CHECK(other.run_finely(0, smooth.experiments[0].initial, {interval(0.5)})->outputs() == 6);
 }
 
 TEST_CASE("a point is run without generators where nothing stops it, and means the same") {
     auto const smooth = plain_problem::make();
-    data_test_options first_order;
+    feasibility_test_options first_order;
     first_order.witness.set = carried_set::doubleton;
-    data_test quick(smooth, {});
-    data_test slow(smooth, first_order);
+    feasibility_test quick(smooth, {});
+    feasibility_test slow(smooth, first_order);
     for (double const rate : {0.2, 0.5, 0.9}) {
         for (double const start : {1.9, 2.0, 2.1}) {
             box const parameters{interval(rate)};
@@ -95,8 +95,8 @@ TEST_CASE("a point is run without generators where nothing stops it, and means t
     auto rests = plain_problem::make();
     rests.model = record_model<resting>();
     rests.experiments[0].outliers = 6;
-    data_test both(rests, {});
-    data_test one(rests, first_order);
+    feasibility_test both(rests, {});
+    feasibility_test one(rests, first_order);
     box const parameters{interval(1.0)};
     auto const far = both.run_finely(0, rests.experiments[0].initial, parameters);
     CHECK(far->outputs() >= one.run_finely(0, rests.experiments[0].initial, parameters)->outputs());
@@ -134,9 +134,9 @@ TEST_CASE("kinks that are crossed, and those that a trajectory rests at, take fe
     run.outliers = 12; // misfits end nothing
     auto const half = run.measurements;
     for (auto m : half) run.measurements.push_back({m.time, 1, interval(-0.05, 0.05)});
-    data_test_options options;
+    feasibility_test_options options;
     options.witness_steps = 400;
-    data_test test(problem, options);
+    feasibility_test test(problem, options);
     box const a{interval(0.5)};
     auto const found = test.run_finely(0, run.initial, a);
     REQUIRE(found->outputs() == 12);
@@ -171,7 +171,7 @@ TEST_CASE("a kink that is crossed leaves little of a measurement open") {
     double const end = -0.25 * (3 - std::log(201.0) / 100);
     run.measurements = {{3, 0, interval(end - 0.1, end + 0.1)}};
     box const c{interval(0.5)};
-    data_test before(problem, {});
+    feasibility_test before(problem, {});
     auto const finely = before.run_finely(0, run.initial, c);
     REQUIRE(finely->outputs() == 1);
     double const open = finely->radius[0];
@@ -182,7 +182,7 @@ TEST_CASE("a kink that is crossed leaves little of a measurement open") {
         run.outliers = allowed;
         for (double const little : {1.5 * open, -1.5 * open}) {
             run.measurements[0].bound = interval(end - 0.1, end + little);
-            data_test test(problem, {});
+            feasibility_test test(problem, {});
             auto const found = test.run_finely(0, run.initial, c);
             auto const value = output_ranges(*found, c)[0];
             CHECK(contains(value, end));

@@ -91,7 +91,7 @@ TEST_CASE("a run that time ends says that it says nothing") {
     CHECK_FALSE(whole.interrupted);
     CHECK(whole.instants < whole.measured);
     run_options some;
-    some.enclosure.keep_going = [left = std::make_shared<int>(4)] { return --*left > 0; };
+    some.keep_going = [left = std::make_shared<int>(4)] { return --*left > 0; };
     auto const cut = reach_of_runs(p, p.prior, some);
     REQUIRE(cut.size() == 1);
     CHECK(cut[0].interrupted);
@@ -104,7 +104,7 @@ TEST_CASE("long records are looked at in places and time ends the looking") {
     CHECK(r.end == 8);
     CHECK(r.until > 1);
     run_options none;
-    none.enclosure.keep_going = [] { return false; };
+    none.keep_going = [] { return false; };
     CHECK(reach_of_runs(p, p.prior, none).empty());
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 run_options with(tableau const& method, run_maker make = &runge_kutta_run) {
     run_options options;
-    options.enclosure.method = method;
+    options.method = method;
     options.make = make;
     return options;
 }
@@ -49,8 +49,7 @@ TEST_CASE("responses by Runge-Kutta hold the exact outputs") {
     for (auto const& method : {rk4(), gauss4(), heun()}) {
         CAPTURE(method.name);
         auto options = with(method);
-        if (method.order == 2)
-            options.enclosure.tolerance = options.enclosure.relative_tolerance = 1e-3;
+        if (method.order == 2) options.tolerance = options.relative_tolerance = 1e-3;
         auto const run = make_run(f, e, samples, problem.prior, options);
         box const region{interval(0.45, 0.55)};
         auto const answer = (*run)(e.initial, region);
@@ -74,8 +73,8 @@ TEST_CASE("identification by Runge-Kutta finds what is feasible, with every set"
         for (auto const a : {algorithm::contracting, algorithm::report_1}) {
             identify_options options;
             options.algorithm = a;
-            options.test.run = with(rk4());
-            options.test.run.set = set;
+            static_cast<run_options&>(options.test) = with(rk4());
+            options.test.set = set;
             auto const found = identify(problem, options);
             CHECK(found.verdict == verdict::consistent);
             CHECK(found.hull[0].lower() <= exact.lower() + 1e-12);

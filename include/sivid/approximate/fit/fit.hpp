@@ -40,16 +40,16 @@ struct fit_start {
 ///  - parameters and starts: Chebyshev steps from there to a local minimum, a kink, sharply.
 /// @guarantee  none; the point lies in the prior, the starts in their boxes
 /// @cost  about twenty simulations with sensitivities a descent
-class fitter {
+class approximate_fitter {
 public:
     /// @param problem     outlives this object
     /// @param keep_going  asked while simulating, false ends a fit with the best it has until then,
     ///                    which may be nothing; may be empty
-    explicit fitter(identification_problem const& problem,
-                    std::function<bool()> keep_going = nullptr);
-    fitter(fitter&&) noexcept;
-    fitter& operator=(fitter&&) noexcept;
-    ~fitter();
+    explicit approximate_fitter(identification_problem const& problem,
+                                std::function<bool()> keep_going = nullptr);
+    approximate_fitter(approximate_fitter&&) noexcept;
+    approximate_fitter& operator=(approximate_fitter&&) noexcept;
+    ~approximate_fitter();
 
     [[nodiscard]] approximate_fit operator()(fit_start const& start = {},
                                              fit_norm norm = fit_norm::largest);
@@ -66,12 +66,12 @@ private:
     std::unique_ptr<approximate_detail::fit_search> work_;
 };
 
-/// One fit: see `fitter`.
+/// One fit: see `approximate_fitter`.
 [[nodiscard]] inline approximate_fit fit(identification_problem const& problem,
                                          fit_norm norm = fit_norm::largest,
                                          fit_start const& start = {},
                                          std::function<bool()> keep_going = nullptr) {
-    return fitter(problem, std::move(keep_going))(start, norm);
+    return approximate_fitter(problem, std::move(keep_going))(start, norm);
 }
 
 } // namespace sivid

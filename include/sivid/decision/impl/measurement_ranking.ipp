@@ -94,7 +94,7 @@ SIVID_DECL measurement_ranking rank_measurements(identification_problem const& p
     if (groups.empty()) groups = decision_detail::usual_groups(problem, options.times);
 
     identify_options asking;
-    asking.test.run = options.run;
+    static_cast<run_options&>(asking.test) = options.run;
     asking.search.sufficient_ratio = 1 / (1 + options.accuracy / 2);
     asking.search.seconds = options.seconds / 3;
     asking.search.boxes = options.boxes;
@@ -130,8 +130,8 @@ SIVID_DECL measurement_ranking rank_measurements(identification_problem const& p
                                 .measurements = decision_detail::count(problem, groups[k])};
         if (worth.measurements == 0) continue;
         work_limit const own(limit.seconds() / static_cast<double>(groups.size() - k), limit);
-        data_test_options test;
-        test.run = options.run;
+        feasibility_test_options test;
+        static_cast<run_options&>(test) = options.run;
         decision_detail::others_leave difference(posed, groups[k], limited(test, own), starts);
         inversion_options search;
         search.accuracy_of_hull = true;

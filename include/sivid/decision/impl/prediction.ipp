@@ -33,7 +33,7 @@ public:
           options_(options),
           limit_(options.seconds, options.keep_going),
           outputs_(problem.model, further) {
-        options_.run.enclosure.keep_going = limit_;
+        options_.run.keep_going = limit_;
         if (many() && options_.run.degree == 0)
             options_.run.degree = sharp_degree(problem.around().size());
         cover_.emplace(

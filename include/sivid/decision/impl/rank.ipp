@@ -170,9 +170,9 @@ public:
 private:
     using all_trials = std::map<std::size_t, std::vector<effect_trial>>; ///< by experiment
 
-    static data_test_options tests(rank_options const& options, work_limit const& limit) {
-        data_test_options test;
-        test.run = options.run;
+    static feasibility_test_options tests(rank_options const& options, work_limit const& limit) {
+        feasibility_test_options test;
+        static_cast<run_options&>(test) = options.run;
         return limited(std::move(test), limit);
     }
     [[nodiscard]] bool is_close(parameter_effect const& e) const {
@@ -285,7 +285,7 @@ private:
     identification_problem const* problem_;
     rank_options options_;
     std::size_t most_parts_ = 0;
-    data_test test_;
+    feasibility_test test_;
     effect_cover cover_;
     using point = std::pair<std::vector<double>,
                             std::vector<double>>; ///< start and parameters

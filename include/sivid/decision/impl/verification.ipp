@@ -36,7 +36,7 @@ public:
           limit_(options.seconds, options.keep_going),
           witness_(feasible, what, options.run, limit_),
           data_(slim_, around_, limit_) {
-        options_.run.enclosure.keep_going = limit_;
+        options_.run.keep_going = limit_;
         double const cells = static_cast<double>(std::max<std::size_t>(options.cells, 1));
         times_ = time_cells(problem, what.times, problem.end / cells);
     }

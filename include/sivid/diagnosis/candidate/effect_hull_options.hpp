@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_EFFECT_HULL_OPTIONS_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_EFFECT_HULL_OPTIONS_HPP
 
-#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/feasibility_test_options.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -17,7 +17,7 @@ struct effect_hull_options {
     /// is not a parameter.
     double accuracy = 1.0 / 128;
     std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
-    data_test_options test{};
+    feasibility_test_options test{};
 };
 
 } // namespace sivid

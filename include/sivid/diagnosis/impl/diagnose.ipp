@@ -110,7 +110,7 @@ private:
     }
     /// Why it could not be told whether there is a gap.
     void see_reach() {
-        auto const run = limited(effort_.test(), effort_.within(options_.reach_share)).run;
+        run_options const run = limited(effort_.test(), effort_.within(options_.reach_share));
         run_.result.reach = reach_of_runs(run_.base, run_.base.prior, run);
     }
     void find_relations() {

@@ -18,7 +18,7 @@
 namespace sivid {
 
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
-                                 data_test_options const& test, std::size_t boxes) {
+                                 feasibility_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
     data.judged_by(run.candidates.front(), run.base, run.catalogue).require_valid_campaign();
     stopwatch const clock;
@@ -52,7 +52,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         search.work = (before ? boxes / 8 : boxes / 2) *
                       (run.base.experiments.size() + judged.experiments.size() + 1);
         search.test = limited(test, [&test, clock, end = share * seconds] {
-            return clock.spent() < end && !test.run.enclosure.cancelled();
+            return clock.spent() < end && !test.cancelled();
         });
         return judge_by_holdout(candidate, bound, explaining, judged, over, search);
     };

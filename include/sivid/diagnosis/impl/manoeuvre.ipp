@@ -81,8 +81,8 @@ private:
             problem.prior[j] = interval(c.fit.parameters[j]);
         }
         start_added_states(problem);
-        auto const fit =
-            fitter(problem, go_on_).at(c.fit.parameters, {mid(problem.experiments[0].initial)});
+        auto const fit = approximate_fitter(problem, go_on_)
+                             .at(c.fit.parameters, {mid(problem.experiments[0].initial)});
         return fit.residuals.empty() ? std::vector<double>{} : fit.residuals.front();
     }
 

@@ -144,10 +144,10 @@ std::pair<double, std::size_t> parametric_flow<Model>::estimate(std::size_t lane
 template <class Model>
 double parametric_flow<Model>::propose(std::size_t lane, double rest) const {
     double const h =
-        std::min({options_.maximum_step, rest, lanes_[lane].learned * estimate(lane).first});
+        std::min({options_.longest_step(), rest, lanes_[lane].learned * estimate(lane).first});
     // A little longer rather than once more: the length aims at a tenth of what is allowed.
     double const longer = h * std::pow(4.0, 1.0 / static_cast<double>(order_ + 1));
-    if (rest <= std::min(longer, options_.maximum_step)) return rest;
+    if (rest <= std::min(longer, options_.longest_step())) return rest;
     return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.minimum_step)) : h;
 }
 

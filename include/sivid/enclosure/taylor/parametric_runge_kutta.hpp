@@ -56,7 +56,7 @@ void parametric_runge_kutta<Model>::begin(double time, box const& initial, box c
 
 template <class Model>
 double parametric_runge_kutta<Model>::propose(double rest) const {
-    double const h = std::min({options_.maximum_step, rest, learned_ * estimate().first});
+    double const h = std::min({options_.longest_step(), rest, learned_ * estimate().first});
     if (h >= rest) return rest;
     return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.minimum_step)) : h;
 }

@@ -68,7 +68,7 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
         double const end = s.end();
         enclosure_options options;
         if (pieces > 0) // `for_span` stretches it for more than a hundred units
-            options.maximum_step = std::min(100.0, end - s.begin) / static_cast<double>(pieces);
+            options.maximum_step = (end - s.begin) / static_cast<double>(pieces);
         options.maximum_steps = steps_for(s, pieces);
         options.keep_going = keep_going;
         motion.flows.push_back(f);

@@ -41,14 +41,14 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         if (e.hull_gain) json.members("hull_gain", *e.hull_gain);
         json.end_object();
     }
-    auto const& enclosure = found.run.enclosure; // of the search, for certificates.csv
-    bool const taylor = found.run.set == carried_set::taylor_model;
+    auto const& run = found.run; // of the search, for certificates.csv
+    bool const taylor = run.set == carried_set::taylor_model;
     json.key("enclosures").begin_object(one_line);
     json.members("set", taylor ? "taylor-model" : "first-order");
-    if (enclosure.method) json.members("method", enclosure.method->name);
-    json.members("order", enclosure.order, "tolerance", enclosure.tolerance);
-    json.members("relative_tolerance", enclosure.relative_tolerance);
-    json.members("minimum_step", enclosure.minimum_step).end_object();
+    if (run.method) json.members("method", run.method->name);
+    json.members("order", run.order, "tolerance", run.tolerance);
+    json.members("relative_tolerance", run.relative_tolerance);
+    json.members("minimum_step", run.minimum_step).end_object();
     json.key("files").begin_object();
     json.members("boxes.csv", sha256(boxes_csv(problem, found)));
     if (found.products) json.members("products.csv", sha256(products_csv(found)));

@@ -67,18 +67,18 @@ inline void describe_meaning(canonical_text& t, identification_problem p) {
 }
 
 inline void describe(canonical_text& t, run_options const& o) {
-    auto const& e = o.enclosure;
-    t("run", o.set, o.degree, o.hopeless, e.order, e.variational_order, e.method.has_value(),
-      e.tolerance, e.relative_tolerance, e.minimum_step, e.maximum_step, e.maximum_steps, e.widest,
-      e.remainder_share);
-    if (!e.method) return;
-    t("method", e.method->name, e.method->order);
+    t("run", o.set, o.degree, o.hopeless, o.order, o.variational_order, o.method.has_value(),
+      o.tolerance, o.relative_tolerance, o.minimum_step, 1.0, o.maximum_steps, o.widest,
+      o.remainder_share);
+    if (o.maximum_step) t("longest step", *o.maximum_step);
+    if (!o.method) return;
+    t("method", o.method->name, o.method->order);
     auto const coefficients = [&t](std::vector<surd> const& list) {
         for (auto const& x : list) t("surd", x.numerator, x.denominator, x.factor, x.radicand);
     };
-    for (auto const& row : e.method->a) coefficients(row);
-    coefficients(e.method->b);
-    coefficients(e.method->c);
+    for (auto const& row : o.method->a) coefficients(row);
+    coefficients(o.method->b);
+    coefficients(o.method->c);
 }
 
 /// Everything that decides what a search does; budgets and threads do not.
@@ -88,7 +88,7 @@ inline void describe(canonical_text& t, identify_options const& o) {
     t("search", s.accuracy, s.accuracy_of_hull, s.hull_gain, s.small_hull, s.sufficient_ratio,
       s.order, s.keep_outside, s.batches);
     t("test", o.test.contract, o.test.cut, o.test.sharp_enough, o.test.witness_steps);
-    describe(t, o.test.run);
+    describe(t, static_cast<run_options const&>(o.test));
     describe(t, o.test.witness);
 }
 

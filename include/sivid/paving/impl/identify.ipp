@@ -12,10 +12,10 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/core_box.hpp>
 #include <sivid/paving/judge/detail/posed_search.hpp>
 #include <sivid/paving/judge/detail/prior_contraction.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
@@ -36,7 +36,7 @@ namespace paving_detail {
 
 /// Measurements that fail for every parameter that is left.
 inline std::vector<forced_outlier>
-find_forced(data_test& test, identification_problem const& problem, box const& hull) {
+find_forced(feasibility_test& test, identification_problem const& problem, box const& hull) {
     std::vector<forced_outlier> forced;
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
         if (problem.experiments[s].outliers == 0) continue;
@@ -51,10 +51,10 @@ find_forced(data_test& test, identification_problem const& problem, box const& h
 
 /// Fits and verifies. A fit that ends by a few percent outside of the bounds may have stopped short
 /// of its minimum: it goes on from there.
-inline void find_witness(data_test& test, identification_problem const& working,
+inline void find_witness(feasibility_test& test, identification_problem const& working,
                          work_limit const& limit, identification& result) {
     constexpr double nearly = 1.05;
-    fitter fit(working, limit);
+    approximate_fitter fit(working, limit);
     auto guess = fit();
     for (bool const sharpened : {false, true}) {
         if (guess.parameters.empty()) return;
@@ -116,7 +116,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
     paving_detail::posed_search searched(working, structure, options);
     auto const& map = searched.map();
     auto const& posed = searched.posed();
-    std::optional<data_test> in_parameters;
+    std::optional<feasibility_test> in_parameters;
     if (map) in_parameters.emplace(working, options.test);
     auto& test = map ? *in_parameters : searched.unhindered();
     identification result(problem.prior);
@@ -186,8 +186,8 @@ SIVID_DECL identification identify(identification_problem const& problem,
     }
     result.reason = found.reason;
     result.proof = std::move(found.proof);
-    result.run = options.test.run;
-    result.run.enclosure.keep_going = nullptr; // it is this call's
+    result.run = options.test;
+    result.run.keep_going = nullptr; // it is this call's
     result.boxes = found.tested;
     result.effort = search_effort{found.seconds,
                                   std::min(search.seconds, 1e300),
@@ -218,8 +218,8 @@ SIVID_DECL identification identify(identification_problem const& problem,
     if (result.excludes_little() && result.reason != stop_reason::decided &&
         result.reason != stop_reason::cancelled) {
         limit.allow(options.completing_seconds); // the box about the witness may have taken all
-        auto run = options.test.run;
-        run.enclosure.keep_going = limit;
+        run_options run = options.test;
+        run.keep_going = limit;
         result.reach = reach_of_runs(asked, left, run);
         result.divisors = divisors_of(problem, {.keep_going = limit});
         std::erase_if(result.divisors, [](divisor const& d) { return d.zeros == zeros::none; });

@@ -76,10 +76,10 @@ private:
     }
     /// For any thread, within runs: one of a long record takes seconds.
     [[nodiscard]] bool goes_on() const {
-        auto const& run = options_->test.run.enclosure;
+        auto const& run = options_->test;
         return elapsed() < options_->seconds && !run.cancelled();
     }
-    [[nodiscard]] data_test_options test_within_time() const {
+    [[nodiscard]] feasibility_test_options test_within_time() const {
         return limited(options_->test, [this] { return goes_on(); });
     }
     /// Asked between steps: a step that work cut short would have worked in vain, and where it was
@@ -160,10 +160,10 @@ private:
     identification_problem const* problem_;
     inflation_options const* options_;
     identification_problem everything_;
-    data_test points_;
+    feasibility_test points_;
     std::optional<reduction> map_;
     inflation_search search_;
-    fitter fit_;
+    approximate_fitter fit_;
     double upper_ = detail::infinity;
     std::size_t descents_ = 0;
     std::size_t most_work_ = std::max(options_->work, options_->further_work);

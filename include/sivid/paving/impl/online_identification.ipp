@@ -91,7 +91,7 @@ public:
         stopwatch const clock;
         identification result(problem_.prior);
         result.assumptions.push_back(input_assumption(problem_.experiments));
-        auto const& run = options_.test.run.enclosure;
+        auto const& run = options_.test;
         result.reason = paving_->reason();
         bool const fit_lacks = judged_verdict() == verdict::undecided && (put_off_ || cut_short_);
         if (result.reason != stop_reason::decided && (fit_lacks || from_other_starts_))
@@ -141,7 +141,7 @@ private:
     }
 
     online_update take(std::vector<record> samples) {
-        work_limit const limit(options_.refinement.seconds, options_.test.run.enclosure.keep_going);
+        work_limit const limit(options_.refinement.seconds, options_.test.keep_going);
         online_update now;
         auto const judged = paving_->judged();
         auto const runs = paving_->test().integrations();

@@ -32,7 +32,7 @@ namespace paving_detail {
 class few_violations {
 public:
     /// @param keep_going  false ends what is tried; what was found stands
-    few_violations(identification_problem const& problem, data_test_options const& options,
+    few_violations(identification_problem const& problem, feasibility_test_options const& options,
                    std::function<bool()> keep_going)
         : problem_(problem),
           tolerant_(box_explorer::without_limit(problem)),
@@ -58,7 +58,7 @@ public:
             for (auto& e : problem_.experiments) {
                 e.outliers = std::min(q, e.measurements.size() / 2);
             }
-            auto const guess = fitter(problem_, keep_going_)();
+            auto const guess = approximate_fitter(problem_, keep_going_)();
             (void)propose(guess);
             if (guess.inflation <= 1) break;
         }
@@ -76,7 +76,8 @@ public:
             problem_.experiments[e].outliers =
                 std::min(budgets_[e], problem_.experiments[e].measurements.size() / 2);
         }
-        if (propose(fitter(problem_, keep_going_)({parameters})) && total() < before) decrease();
+        if (propose(approximate_fitter(problem_, keep_going_)({parameters})) && total() < before)
+            decrease();
     }
 
 private:
@@ -89,7 +90,7 @@ private:
                 for (std::size_t k = 0; k < budgets_.size(); ++k) {
                     problem_.experiments[k].outliers = budgets_[k] - (k == e ? 1 : 0);
                 }
-                better = propose(fitter(problem_, keep_going_)({witness_->parameters}));
+                better = propose(approximate_fitter(problem_, keep_going_)({witness_->parameters}));
             }
         }
     }
@@ -115,7 +116,7 @@ private:
     identification_problem problem_;  ///< with the budgets of the next fit
     identification_problem tolerant_; ///< any number of outliers allowed
     std::function<bool()> keep_going_;
-    data_test test_;
+    feasibility_test test_;
     std::vector<std::size_t> budgets_;
     std::optional<verified_witness> witness_;
 };

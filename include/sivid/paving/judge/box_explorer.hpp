@@ -5,7 +5,7 @@
 #include <sivid/executor.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ outlier_budgets(identification_problem const& problem) {
 /// that can be reached: violated measurements end nothing.
 class box_explorer {
 public:
-    box_explorer(identification_problem const& problem, data_test_options const& options)
+    box_explorer(identification_problem const& problem, feasibility_test_options const& options)
         : everything_(without_limit(problem)),
           test_(everything_, options),
           workers_(options.workers) {}
@@ -135,7 +135,7 @@ private:
     static constexpr double smallest_share = 1e-9; ///< of the prior's side
 
     identification_problem everything_;
-    data_test test_;
+    feasibility_test test_;
     executor workers_;
 };
 

@@ -5,7 +5,7 @@
 #include <sivid/model/change/added_start.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/response/misfit.hpp>
 #include <sivid/space/box.hpp>
@@ -21,7 +21,7 @@ namespace sivid {
 /// Verifies a guess by one validated run per experiment, at the guessed point and with the recorded
 /// inputs; states that follow the parameters start where these say.
 [[nodiscard]] inline std::optional<verified_witness>
-verify_witness(data_test& test, identification_problem const& problem,
+verify_witness(feasibility_test& test, identification_problem const& problem,
                std::vector<double> const& parameters,
                std::vector<std::vector<double>> const& starts) {
     auto point = point_within(problem.prior, parameters);
@@ -49,7 +49,8 @@ verify_witness(data_test& test, identification_problem const& problem,
 /// @param test    of the same problem without limits of outliers
 /// @param starts  one point, or next to a point, per experiment
 /// @param what    receives the violated measurements
-[[nodiscard]] inline interval inflation_at(data_test& test, identification_problem const& problem,
+[[nodiscard]] inline interval inflation_at(feasibility_test& test,
+                                           identification_problem const& problem,
                                            box const& parameters, std::vector<box> const& starts,
                                            verified_witness& what) {
     double least = 0;

@@ -4,7 +4,7 @@
 
 #include <sivid/measurement/record.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/online/detail/online_refinement.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -22,7 +22,7 @@ struct online_sample {
 
 struct online_options {
     online_refinement refinement;
-    data_test_options test;
+    feasibility_test_options test;
     /// Refine until the hulls rest, not until much is proved inside.
     bool only_hulls = false;
     /// As of `identify_options`; for `result` only.

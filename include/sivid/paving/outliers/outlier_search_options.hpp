@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_OUTLIERS_OUTLIER_SEARCH_OPTIONS_HPP
 #define SIVID_PAVING_OUTLIERS_OUTLIER_SEARCH_OPTIONS_HPP
 
-#include <sivid/paving/judge/data_test_options.hpp>
+#include <sivid/paving/judge/feasibility_test_options.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -10,7 +10,7 @@
 namespace sivid {
 
 struct outlier_search_options {
-    data_test_options test{};
+    feasibility_test_options test{};
     double seconds = 10;
     std::size_t boxes = 20'000;
     /// Asked by any thread; false ends the search with what is proved until then. It stays false.

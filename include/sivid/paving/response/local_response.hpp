@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_RESPONSE_LOCAL_RESPONSE_HPP
 #define SIVID_PAVING_RESPONSE_LOCAL_RESPONSE_HPP
 
-#include <sivid/paving/response/linear_contraction.hpp>
+#include <sivid/paving/response/linear_contractor.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
 

@@ -82,7 +82,7 @@ private:
 
 } // namespace paving_detail
 
-/// A `run_maker`: `options.test.run.make = runge_kutta_run` with a `method` in the enclosure's
+/// A `run_maker`: `options.test.make = runge_kutta_run` with a `method` in the enclosure's
 /// options. Of the degree that `suggested_degree` says.
 /// Smooth models only: kinks are not crossed, the outputs end there.
 /// @throws std::invalid_argument  without a method

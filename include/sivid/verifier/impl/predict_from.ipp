@@ -7,7 +7,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/verifier/claim/detail/stored_consistency.hpp>
 #include <sivid/verifier/proof/detail/certificate.hpp>
 
@@ -208,16 +208,16 @@ measured_by(identification_problem problem, std::shared_ptr<feasible_search> wit
         identification_problem problem;
         std::shared_ptr<feasible_search> witness;
         std::function<bool()> keep_going;
-        std::optional<data_test> test, sharp;
+        std::optional<feasibility_test> test, sharp;
         [[nodiscard]] bool ready() {
             if (!test && witness && witness->witness_is_proved()) make(test, 0);
             witness = nullptr; // it has said what it knows
             return test.has_value();
         }
-        void make(std::optional<data_test>& of, std::size_t degree) {
-            data_test_options options;
+        void make(std::optional<feasibility_test>& of, std::size_t degree) {
+            feasibility_test_options options;
             options.run.degree = degree;
-            options.run.enclosure.keep_going = [this] { return !keep_going || keep_going(); };
+            options.run.keep_going = [this] { return !keep_going || keep_going(); };
             of.emplace(problem, options);
         }
         /// By polynomials of a higher degree where remainders would hide measurements.

@@ -11,7 +11,7 @@ TEST_CASE("descents lower the norm that they are told to") {
     draws d(882);
     auto const problem =
         support::hovercraft_campaign(d, {}, {.truth = {{"Sv", 0.24}}, .share = 0.5});
-    campaign c(problem);
+    approximate_campaign c(problem);
     descent down(c);
     auto z = c.lower();
     z.for_each([](double& v, double hi) { v = 0.5 * (v + hi); }, c.upper());
@@ -33,7 +33,7 @@ TEST_CASE("descents lower the norm that they are told to") {
     CHECK(here.inflation < squares.inflation);
     // A stiff regularisation keeps the disturbance away.
     std::vector<std::vector<double>> knots(5, {0, 10});
-    campaign disturbed(problem, knots);
+    approximate_campaign disturbed(problem, knots);
     disturbed.release({0}, {true, true, true});
     auto smooth = regularisation(5, Eigen::MatrixXd::Identity(2, 2) * 1e9);
     descent stiff(disturbed, smooth);

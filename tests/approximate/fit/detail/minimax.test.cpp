@@ -12,7 +12,7 @@ TEST_CASE("Chebyshev steps end at an optimum: no point nearby is better") {
     for (bool const uncertain : {false, true}) {
         auto const problem = support::hovercraft_campaign(
             d, {}, {.truth = {{"D22", 0.25}}, .uncertain_starts = uncertain, .share = 0.5});
-        campaign c(problem);
+        approximate_campaign c(problem);
         descent down(c);
         auto z = c.lower();
         z.for_each([](double& v, double hi) { v = 0.5 * (v + hi); }, c.upper());

@@ -24,7 +24,7 @@ TEST_CASE("a trace shows states, inputs, slopes and the inputs' influence at the
     for (int k = 1; k <= 40; ++k)
         e.measurements.push_back({1 + 0.05 * k, 0, support::around(0, 1)});
     problem.experiments = {e};
-    campaign c(problem, {{1, 1.5, 2.25}});
+    approximate_campaign c(problem, {{1, 1.5, 2.25}});
     auto z = arrow_vector::like(c.lower(), 1);
     auto const trace = trace_at_knots(c, 0, z);
     REQUIRE(trace.times == std::vector<double>{0, 0.5, 1.25});

@@ -38,7 +38,7 @@ TEST_CASE("the prior charges size and change") {
 TEST_CASE("rates are as large as they are along the motion, for a second to twenty seconds") {
     auto const p = small_campaign::problem();
     CHECK(rate_time(p) == 1); // four seconds
-    campaign c(p);
+    approximate_campaign c(p);
     auto const z =
         c.variables({1.0}, {mid(p.experiments[0].initial), mid(p.experiments[1].initial)});
     auto const scales = missing_rate_scales(c, z);

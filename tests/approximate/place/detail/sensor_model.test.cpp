@@ -27,9 +27,9 @@ TEST_CASE("faulty sensors have neutral faults and explain their data") {
     CHECK(extended.faults[13].size() == 2); // u and v askew
     CHECK(extended.problem.prior.size() == 3 + 4 * 3 + 4 + 2 * 2);
     CHECK(extended.problem.model.channel_delays.size() == 6);
-    fitter fit(extended.problem);
+    approximate_fitter fit(extended.problem);
     std::vector<double> neutral(extended.problem.prior.size(), 0.0);
-    auto const plain = fitter(problem)({mid(problem.prior)});
+    auto const plain = approximate_fitter(problem)({mid(problem.prior)});
     std::copy(plain.parameters.begin(), plain.parameters.end(), neutral.begin());
     CHECK_THAT(fit.at(neutral, plain.starts).inflation, WithinAbs(plain.inflation, 1e-3));
     CHECK(plain.inflation > 1);
@@ -38,7 +38,7 @@ TEST_CASE("faulty sensors have neutral faults and explain their data") {
     for (std::size_t j = 3; j < only.prior.size(); ++j) {
         if (j != offset) only.prior[j] = interval(0.0);
     }
-    auto const found = fitter(only)();
+    auto const found = approximate_fitter(only)();
     CHECK(found.inflation < 1);
     CHECK_THAT(found.parameters[offset], WithinAbs(0.2, 0.03));
 }

@@ -81,7 +81,7 @@ TEST_CASE("an integration that is cut short takes nothing away from what is know
     sivid::followed_outputs const outputs(p.model, {});
     bool going = true;
     sivid::run_options options;
-    options.enclosure.keep_going = [&going] { return going; };
+    options.keep_going = [&going] { return going; };
     sivid::motion_cover cover(p, outputs, {0, 0.25, 0.5, 0.75, 1}, options);
     auto whole = cover.whole();
     cover.learn({&whole});

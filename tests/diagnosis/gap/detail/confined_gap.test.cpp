@@ -46,7 +46,7 @@ std::vector<confined_gap> confined(identification_problem const& p,
 double needed(identification_problem const& p, confined_gap const& c, double k) {
     std::vector<std::vector<double>> starts;
     for (auto const& e : p.experiments) starts.push_back(mid(e.initial));
-    auto const at = fitter(p).at({k}, starts);
+    auto const at = approximate_fitter(p).at({k}, starts);
     double part = 0, others = 0;
     for (std::size_t e = 0; e < p.experiments.size(); ++e) {
         auto const data = sorted(p.experiments[e].measurements);
@@ -218,9 +218,10 @@ TEST_CASE("what is claimed of noise that grows with a value, against a fine grid
             ++told;
             std::vector<std::vector<double>> starts;
             for (auto const& e : p.experiments) starts.push_back(mid(e.initial));
-            auto const shown = fitter(p).at({c.grows->shown.parameters[0].value}, starts);
+            auto const shown =
+                approximate_fitter(p).at({c.grows->shown.parameters[0].value}, starts);
             auto const needed_at = [&](double k) {
-                auto const at = fitter(p).at({k}, starts);
+                auto const at = approximate_fitter(p).at({k}, starts);
                 double most = 0;
                 for (std::size_t e = 0; e < p.experiments.size(); ++e) {
                     auto const data = sorted(p.experiments[e].measurements);

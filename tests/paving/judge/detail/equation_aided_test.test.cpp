@@ -16,7 +16,7 @@ TEST_CASE("runs and equations together remove no parameter that explains the dat
         auto const m = model_of(what.shape, what.rate);
         for (std::size_t n = 0; n < count; ++n) {
             auto const r = record_of(d, what, m);
-            data_test runs(r.problem, {});
+            feasibility_test runs(r.problem, {});
             // Always asked, or where runs end early.
             equation_aided_test test(runs, r.problem, {.rounds = 2, .cells_per_gap = 2},
                                      d.coin() ? 2 : 0.5);
@@ -34,14 +34,14 @@ TEST_CASE("runs that end early leave a wind to the equations") {
     draws d(721);
     std::vector<double> const truth{0.8, -0.6, 0.4};
     auto const problem = windy_record(d, truth);
-    data_test runs(problem, {});
+    feasibility_test runs(problem, {});
     REQUIRE(runs.reached(problem.prior) < 0.5);
     equation_aided_test test(runs, problem, {.rounds = 1, .cells_per_gap = 2});
     CHECK(test.at_once() == 1);
     inversion_options options{.accuracy_of_hull = true, .boxes = 60, .keep_outside = false};
     auto const hull = invert(test, problem.prior, options).paving.outer_hull();
     CHECK(test.at_once() == runs.at_once()); // once runs go far
-    data_test alone(problem, {});
+    feasibility_test alone(problem, {});
     auto const by_runs = invert(alone, problem.prior, options).paving.outer_hull();
     CHECK(contains(hull, truth));
     for (std::size_t j = 0; j < 3; ++j) {
@@ -53,7 +53,7 @@ TEST_CASE("runs that end early leave a wind to the equations") {
 TEST_CASE("models with delays are left to runs") {
     draws d(722);
     auto problem = windy_record(d, {0.8, -0.6, 0.4});
-    data_test runs(problem, {});
+    feasibility_test runs(problem, {});
     problem.model.input_memory.push_back({});
     equation_aided_test const test(runs, problem, {});
     CHECK(test.at_once() == runs.at_once());

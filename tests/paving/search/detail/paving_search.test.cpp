@@ -3,7 +3,7 @@
 #include <sivid/paving/search/detail/paving_search.hpp>
 
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 
 #include "support/catch.hpp"
 #include "support/problems.hpp"
@@ -104,7 +104,7 @@ executor backwards(std::size_t threads) {
 struct posed {
     support::planted_problem planted;
     inversion_options search;
-    data_test_options test;
+    feasibility_test_options test;
 };
 posed random_posed(draws& d) {
     support::planting how;
@@ -125,7 +125,7 @@ posed random_posed(draws& d) {
     p.search.order = d.below(4) == 0 ? search_order::first_in : search_order::largest_first;
     p.search.batches = 1 + d.below(3);
     p.test.contract = d.below(4) != 0;
-    if (d.below(4) == 0) p.test.run.set = carried_set::doubleton;
+    if (d.below(4) == 0) p.test.set = carried_set::doubleton;
     return p;
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("a search that learns finds the same box for box after any interruptio
         auto const p = random_posed(d);
         auto const& problem = p.planted.problem;
         CAPTURE(round, p.search.batches, p.test.contract);
-        auto const make = [&] { return data_test(problem, p.test); };
+        auto const make = [&] { return feasibility_test(problem, p.test); };
         auto test = make();
         auto const whole = invert(test, problem.prior, p.search);
         CHECK(test.integrations() == whole.cost);
@@ -281,20 +281,20 @@ TEST_CASE("the executor changes nothing") {
         auto const p = random_posed(d);
         auto const& problem = p.planted.problem;
         CAPTURE(round, p.search.batches);
-        data_test alone(problem, p.test);
+        feasibility_test alone(problem, p.test);
         auto const whole = invert(alone, problem.prior, p.search);
         for (std::size_t const threads : {2u, 5u}) {
             auto options = p.search;
             options.workers = backwards(threads);
-            data_test test(problem, p.test);
+            feasibility_test test(problem, p.test);
             check_same(invert(test, problem.prior, options), whole);
             options.resume = [&] {
-                data_test first(problem, p.test);
+                feasibility_test first(problem, p.test);
                 paving_search search(first, problem.prior, options);
                 for (int k = 0; k < 15 && !search.done() && !search.must_stop(); ++k) search.step();
                 return std::make_shared<search_state const>(search.state());
             }();
-            data_test second(problem, p.test);
+            feasibility_test second(problem, p.test);
             check_same(invert(second, problem.prior, options), whole);
         }
     }
@@ -319,7 +319,7 @@ TEST_CASE("learning depends on its boxes alone, not on what was learnt before") 
             return boxes;
         };
         auto const boxes = some();
-        data_test fresh(p.planted.problem, p.test), used(p.planted.problem, p.test);
+        feasibility_test fresh(p.planted.problem, p.test), used(p.planted.problem, p.test);
         for (int k = 0; k < 4; ++k) (void)used.learn(some());
         auto const a = fresh.learn(boxes), b = used.learn(boxes);
         REQUIRE(a.size() == b.size());
@@ -330,7 +330,8 @@ TEST_CASE("learning depends on its boxes alone, not on what was learnt before") 
             CHECK(a[k].cost == b[k].cost);
             REQUIRE((a[k].knowledge == nullptr) == (b[k].knowledge == nullptr));
             if (!a[k].knowledge) continue;
-            CHECK(data_test::bytes(*a[k].knowledge) == data_test::bytes(*b[k].knowledge));
+            CHECK(feasibility_test::bytes(*a[k].knowledge) ==
+                  feasibility_test::bytes(*b[k].knowledge));
             for (std::size_t e = 0; e < a[k].knowledge->all_starts.size(); ++e) {
                 auto const &x = *a[k].knowledge->all_starts[e], &y = *b[k].knowledge->all_starts[e];
                 CHECK(x.coefficients == y.coefficients);
@@ -348,7 +349,7 @@ TEST_CASE("the memory budget ends a search, which goes on with a larger one") {
     how.experiments = 2;
     how.noise = 0.02;
     auto const planted = support::plant(d, 1, how);
-    auto const make = [&] { return data_test(planted.problem, {}); };
+    auto const make = [&] { return feasibility_test(planted.problem, {}); };
     inversion_options o;
     o.accuracy = 1.0 / 500;
     o.sufficient_ratio = 1;
@@ -505,13 +506,13 @@ TEST_CASE("integrations that are told to stop leave a search that goes on as if 
     for (int k = 0; k < 12; ++k) {
         auto const p = random_posed(d);
         auto const& problem = p.planted.problem;
-        data_test complete(problem, p.test);
+        feasibility_test complete(problem, p.test);
         auto const whole = invert(complete, problem.prior, p.search);
         for (std::size_t const most : {0u, 3u, 40u, 300u, 2000u}) {
             std::atomic<std::size_t> asked = 0;
             auto options = p.test;
-            options.run.enclosure.keep_going = [&] { return ++asked <= most; };
-            data_test test(problem, options);
+            options.run.keep_going = [&] { return ++asked <= most; };
+            feasibility_test test(problem, options);
             std::shared_ptr<search_state const> saved;
             auto first = p.search;
             first.checkpoint_seconds = 1e9;
@@ -526,7 +527,7 @@ TEST_CASE("integrations that are told to stop leave a search that goes on as if 
             ++stopped;
             auto again = p.search;
             again.resume = saved;
-            data_test fresh(problem, p.test);
+            feasibility_test fresh(problem, p.test);
             CAPTURE(k, most);
             check_same(invert(fresh, problem.prior, again), whole);
         }

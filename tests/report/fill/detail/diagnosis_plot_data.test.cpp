@@ -17,7 +17,7 @@ TEST_CASE("plot data: fits to a campaign become measured intervals and outputs")
     small_campaign::truth real;
     real.missing = [](double, double v, double) { return -0.5 * v; };
     auto problem = small_campaign::problem(real);
-    auto const fit = sivid::fitter(problem)();
+    auto const fit = sivid::approximate_fitter(problem)();
     REQUIRE(fit.inflation > 1);
     auto const all = compared_scenarios(problem, fit);
     REQUIRE(all.size() == 2);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/verifier/proof/detail/exclusion_check.hpp>
 
 #include "paving/plain_problem.hpp"
@@ -112,7 +112,7 @@ TEST_CASE("a proof is followed and whatever is forged in it no feasible point is
         identify_options options;
         options.search.seconds = 60; // the boxes end it
         options.search.boxes = 60;
-        data_test test(problem, options.test);
+        feasibility_test test(problem, options.test);
         options.search.proof_bytes = 1U << 24;
         auto const found = invert(test, prior, options.search);
         REQUIRE_FALSE(found.proof.empty());
@@ -125,8 +125,8 @@ TEST_CASE("a proof is followed and whatever is forged in it no feasible point is
         certificate_options effort;
         effort.seconds = 60;
         run_options fine;
-        fine.enclosure.tolerance = 1e-9;
-        fine.enclosure.relative_tolerance = 1e-6;
+        fine.tolerance = 1e-9;
+        fine.relative_tolerance = 1e-6;
         exclusion_check<interval> check(problem, effort, fine);
         whole += check.follow(found.proof, rows).empty() ? 1 : 0;
         by_weights += check.by_weights();

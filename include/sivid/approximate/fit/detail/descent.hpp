@@ -3,7 +3,7 @@
 #define SIVID_APPROXIMATE_FIT_DETAIL_DESCENT_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/approximate/fit/detail/approximate_campaign.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ struct descent_options {
 /// Minimises sum w |r|^p (+ z' R z) over the box of the variables by damped Gauss-Newton steps.
 class descent {
 public:
-    explicit descent(campaign& c, regularisation smooth = {})
+    explicit descent(approximate_campaign& c, regularisation smooth = {})
         : campaign_(&c), smooth_(std::move(smooth)) {}
 
     [[nodiscard]] bool evaluate(arrow_vector z, descent_point& point) {
@@ -185,7 +185,7 @@ private:
         return slope;
     }
 
-    campaign* campaign_;
+    approximate_campaign* campaign_;
     regularisation smooth_;
     double balance_ = 1;
     arrow_system system_;
@@ -195,7 +195,8 @@ private:
 inline constexpr double judged_accuracy = 1e-3;
 
 /// What a descent came to, by its own simulation; only infinite figures where it came to nothing.
-[[nodiscard]] inline approximate_fit as_descended(campaign const& c, descent_point here) {
+[[nodiscard]] inline approximate_fit as_descended(approximate_campaign const& c,
+                                                  descent_point here) {
     approximate_fit result;
     if (!std::isfinite(here.inflation)) return result;
     result.inflation = inflation_of(here.residuals, c.outliers());
@@ -208,7 +209,7 @@ inline constexpr double judged_accuracy = 1e-3;
 }
 
 /// The same, simulated once more with care.
-[[nodiscard]] inline approximate_fit fit_at(campaign& c, descent_point here) {
+[[nodiscard]] inline approximate_fit fit_at(approximate_campaign& c, descent_point here) {
     if (!std::isfinite(here.inflation)) return {};
     c.set_accuracy(judged_accuracy);
     residual_lists fine;

@@ -36,7 +36,7 @@ struct minimax_options {
 /// steps far from a minimum; or, near one, by exchanges to the kink where the least t lies.
 class minimax {
 public:
-    explicit minimax(campaign& c) : campaign_(&c), descent_(c) {}
+    explicit minimax(approximate_campaign& c) : campaign_(&c), descent_(c) {}
 
     /// @param unit  per variable: the radius of a trust region of size 1
     void run(descent_point& here, arrow_vector const& unit, minimax_options const& options = {}) {
@@ -331,7 +331,7 @@ private:
         return static_cast<std::size_t>(n);
     }
 
-    campaign* campaign_;
+    approximate_campaign* campaign_;
     descent descent_;
     arrow_system system_;
     std::vector<Eigen::VectorXd> lines_; ///< r + J d

@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_FIT_DETAIL_SUSPECT_SAMPLES_HPP
 #define SIVID_APPROXIMATE_FIT_DETAIL_SUSPECT_SAMPLES_HPP
 
-#include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/approximate/fit/detail/approximate_campaign.hpp>
 #include <sivid/space/dense.hpp>
 
 #include <Eigen/Core>
@@ -65,7 +65,8 @@ template <class Over>
 
 /// Weights for the first descents: 0 for samples that do not go on from their neighbours, at most
 /// as many in each experiment as its outlier budget allows. For fitting only: a proof never flags.
-[[nodiscard]] inline residual_lists without_suspects(campaign const& c, double limit = 4) {
+[[nodiscard]] inline residual_lists without_suspects(approximate_campaign const& c,
+                                                     double limit = 4) {
     residual_lists kept;
     for (std::size_t e = 0; e < c.experiments(); ++e) {
         auto const& requests = c.requests(e);

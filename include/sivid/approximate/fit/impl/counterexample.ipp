@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/fit/detail/counterexample.hpp>
 
-#include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/approximate/fit/detail/approximate_campaign.hpp>
 #include <sivid/approximate/fit/detail/descent.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
@@ -76,13 +76,13 @@ private:
     /// What explains the data at this point best.
     [[nodiscard]] approximate_fit at(std::vector<double> const& p,
                                      std::vector<std::vector<double>> const& starts) {
-        if (free_starts_) return fitter(within(*problem_, point_box(p)))({p});
+        if (free_starts_) return approximate_fitter(within(*problem_, point_box(p)))({p});
         descent_point here;
         if (!descent(campaign_).evaluate(campaign_.variables(p, starts), here)) return {};
         return fit_at(campaign_, std::move(here));
     }
     [[nodiscard]] std::vector<std::vector<double>> starts_at(std::vector<double> const& p) {
-        if (free_starts_) return fitter(within(*problem_, point_box(p)))({p}).starts;
+        if (free_starts_) return approximate_fitter(within(*problem_, point_box(p)))({p}).starts;
         std::vector<std::vector<double>> result;
         for (auto const& e : problem_->experiments) result.push_back(mid(e.initial));
         return result;
@@ -124,7 +124,7 @@ private:
     }
 
     identification_problem const* problem_;
-    campaign campaign_;
+    approximate_campaign campaign_;
     bool free_starts_;
 };
 
@@ -136,7 +136,7 @@ SIVID_DECL bool find_explaining_point(identification_problem const& problem,
     using namespace approximate_detail;
     if (excluded.empty() || !options.confirms) return false;
     work_limit const limit(options.seconds, options.keep_going);
-    fitter whole(problem);
+    approximate_fitter whole(problem);
     auto const explains = [&](approximate_fit const& f) {
         return !f.parameters.empty() && f.inflation <= 1 && options.confirms(f);
     };
@@ -172,8 +172,8 @@ SIVID_DECL bool find_explaining_point(identification_problem const& problem,
             if (!limit()) return false;
             auto const own = within(problem, excluded[c.box]);
             if (near && best.parameters.empty()) continue;
-            if (explains(near ? fitter(own)({nearest_in(own.prior, best.parameters)})
-                              : fitter(own)())) {
+            if (explains(near ? approximate_fitter(own)({nearest_in(own.prior, best.parameters)})
+                              : approximate_fitter(own)())) {
                 return true;
             }
         }

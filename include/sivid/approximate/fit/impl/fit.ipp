@@ -4,7 +4,7 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 
-#include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/approximate/fit/detail/approximate_campaign.hpp>
 #include <sivid/approximate/fit/detail/descent.hpp>
 #include <sivid/approximate/fit/detail/minimax.hpp>
 #include <sivid/approximate/fit/detail/suspect_samples.hpp>
@@ -24,7 +24,7 @@ namespace sivid {
 
 namespace approximate_detail {
 
-/// The work of a `fitter`.
+/// The work of an `approximate_fitter`.
 class fit_search {
 public:
     fit_search(identification_problem const& problem, std::function<bool()> keep_going)
@@ -226,7 +226,7 @@ private:
         return result;
     }
 
-    campaign campaign_;
+    approximate_campaign campaign_;
     std::unique_ptr<identification_problem> few_; ///< of the measurements, where there are many
     std::unique_ptr<fit_search> by_few_;
     double each_of_few_ = 1; ///< so many measurements stand for each of them
@@ -235,20 +235,22 @@ private:
 
 } // namespace approximate_detail
 
-SIVID_DECL fitter::fitter(identification_problem const& problem, std::function<bool()> keep_going)
+SIVID_DECL approximate_fitter::approximate_fitter(identification_problem const& problem,
+                                                  std::function<bool()> keep_going)
     : work_(std::make_unique<approximate_detail::fit_search>(problem, std::move(keep_going))) {}
-SIVID_DECL fitter::fitter(fitter&&) noexcept = default;
-SIVID_DECL fitter& fitter::operator=(fitter&&) noexcept = default;
-SIVID_DECL fitter::~fitter() = default;
-SIVID_DECL approximate_fit fitter::operator()(fit_start const& start, fit_norm norm) {
+SIVID_DECL approximate_fitter::approximate_fitter(approximate_fitter&&) noexcept = default;
+SIVID_DECL approximate_fitter&
+approximate_fitter::operator=(approximate_fitter&&) noexcept = default;
+SIVID_DECL approximate_fitter::~approximate_fitter() = default;
+SIVID_DECL approximate_fit approximate_fitter::operator()(fit_start const& start, fit_norm norm) {
     return (*work_)(start, norm);
 }
-SIVID_DECL approximate_fit fitter::at(std::vector<double> const& parameters,
-                                      std::vector<std::vector<double>> const& starts) {
+SIVID_DECL approximate_fit approximate_fitter::at(std::vector<double> const& parameters,
+                                                  std::vector<std::vector<double>> const& starts) {
     return work_->at(parameters, starts, false);
 }
-SIVID_DECL approximate_fit fitter::roughly_at(std::vector<double> const& parameters,
-                                              std::vector<std::vector<double>> const& starts) {
+SIVID_DECL approximate_fit approximate_fitter::roughly_at(
+    std::vector<double> const& parameters, std::vector<std::vector<double>> const& starts) {
     return work_->at(parameters, starts, true);
 }
 

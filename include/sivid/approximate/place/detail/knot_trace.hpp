@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_PLACE_DETAIL_KNOT_TRACE_HPP
 #define SIVID_APPROXIMATE_PLACE_DETAIL_KNOT_TRACE_HPP
 
-#include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/approximate/fit/detail/approximate_campaign.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,8 @@ struct knot_trace {
 };
 
 /// @returns an empty trace when the simulation fails
-[[nodiscard]] inline knot_trace trace_at_knots(campaign& c, std::size_t e, arrow_vector const& z) {
+[[nodiscard]] inline knot_trace trace_at_knots(approximate_campaign& c, std::size_t e,
+                                               arrow_vector const& z) {
     knot_trace result;
     simulated_trace seen;
     auto const& knots = c.knots(e);

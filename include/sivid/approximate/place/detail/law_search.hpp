@@ -31,11 +31,11 @@ struct ranked_law {
 class law_search {
 public:
     /// @param fit  of a set with at least one equation
-    law_search(place_fitter& fitter, place_fit const& fit) : campaign_(&fitter.simulations()) {
-        fitter.release(fit.set);
-        targets_ = fitter.targets();
-        at_ = fitter.vector_of(fit.state);
-        auto const smooth = fitter.prior();
+    law_search(place_fitter& fits, place_fit const& fit) : campaign_(&fits.simulations()) {
+        fits.release(fit.set);
+        targets_ = fits.targets();
+        at_ = fits.vector_of(fit.state);
+        auto const smooth = fits.prior();
         residual_lists r;
         if (!campaign_->linearise(at_, r)) return;
         auto const g = at_.global.size();
@@ -43,7 +43,7 @@ public:
             auto const n = static_cast<Eigen::Index>(r[e].size());
             Eigen::VectorXd root(n);
             for (Eigen::Index k = 0; k < n; ++k) {
-                root[k] = std::sqrt(fitter.kept()[e][static_cast<std::size_t>(k)]);
+                root[k] = std::sqrt(fits.kept()[e][static_cast<std::size_t>(k)]);
                 samples_ += root[k] > 0 ? 1 : 0;
             }
             residuals_.emplace_back(
@@ -213,7 +213,7 @@ private:
         return own.compute(left) ? without - pull.dot(own.solve(pull).col(0)) : without;
     }
 
-    campaign* campaign_;
+    approximate_campaign* campaign_;
     bool valid_ = false;
     double samples_ = 0, base_ = 0;
     arrow_vector at_;

@@ -2,7 +2,7 @@
 #ifndef SIVID_APPROXIMATE_PLACE_DETAIL_MISSING_RATE_HPP
 #define SIVID_APPROXIMATE_PLACE_DETAIL_MISSING_RATE_HPP
 
-#include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/approximate/fit/detail/approximate_campaign.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +87,7 @@ missing_rate_prior(std::vector<double> const& knots, std::vector<missing_rate_sc
 /// Of states, then of inputs. Typical sizes of the rates along a motion: four times their root mean
 /// square. An equation that rests is as uncertain as the others of its unit, or as its errors
 /// within `rate_time`.
-[[nodiscard]] inline std::vector<missing_rate_scale> missing_rate_scales(campaign& c,
+[[nodiscard]] inline std::vector<missing_rate_scale> missing_rate_scales(approximate_campaign& c,
                                                                          arrow_vector const& z) {
     auto const& about = c.problem().model.about;
     std::vector<double> squares(about.states.size(), 0.0);

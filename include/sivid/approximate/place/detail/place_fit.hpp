@@ -54,7 +54,7 @@ public:
 
     [[nodiscard]] std::vector<place> const& places() const { return places_; }
     [[nodiscard]] sensor_problem const& extended() const { return extended_; }
-    [[nodiscard]] campaign& simulations() { return campaign_; }
+    [[nodiscard]] approximate_campaign& simulations() { return campaign_; }
     [[nodiscard]] residual_lists const& kept() const { return kept_; }
     void set_scales(std::vector<missing_rate_scale> scales) { scales_ = std::move(scales); }
     [[nodiscard]] std::vector<missing_rate_scale> const& scales() const { return scales_; }
@@ -249,7 +249,7 @@ private:
 
     std::vector<place> places_;
     sensor_problem extended_;
-    campaign campaign_;
+    approximate_campaign campaign_;
     residual_lists kept_;
     double samples_ = 0;
     std::vector<missing_rate_scale> scales_;

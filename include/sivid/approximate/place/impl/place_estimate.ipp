@@ -34,7 +34,8 @@ public:
     [[nodiscard]] place_estimate operator()() {
         stopwatch const clock;
         place_estimate result;
-        result.base = base_ != nullptr ? *base_ : fitter(*problem_, options_.search.go_on)();
+        result.base =
+            base_ != nullptr ? *base_ : approximate_fitter(*problem_, options_.search.go_on)();
         result.inflation = result.base.inflation;
         if (!(result.base.inflation <= 1) && !result.base.parameters.empty()) search(result);
         result.seconds = clock.spent();

@@ -36,7 +36,7 @@ public:
                  std::vector<node_id> const& goals, run_options run,
                  std::function<bool()> keep_going)
         : plan_(plan), goals_(goals.size()), go_on_(std::move(keep_going)) {
-        run.enclosure.keep_going = go_on_;
+        run.keep_going = go_on_;
         for (auto const& m : models) runs_.emplace_back(*m.problem, plan, goals, m.limits, run);
         auto const& measured = models.front().problem->measured;
         if (measured && models.size() == 1) use(measured(runs_.front().parameters(), go_on_));

@@ -116,7 +116,7 @@ private:
 
     pair_search(planned_measurements const& plan, promise_options const& options)
         : options_(options), limit_(options.seconds, options.keep_going) {
-        options_.run.enclosure.keep_going = limit_;
+        options_.run.keep_going = limit_;
         plan.for_each([this](double, std::size_t, double e) { // it may be a decimal just above
             twice_.push_back(2 * detail::next_up(e));
         });

@@ -29,8 +29,8 @@ public:
               std::vector<node_id> const& goals, requirement const* limits, run_options run)
         : problem_(problem), plan_(plan), limits_(limits), run_(std::move(run)) {
         run_.degree = 1; // slopes are all that is wanted, over a small box
-        run_.enclosure.tolerance = 1e-4;
-        run_.enclosure.relative_tolerance = 1e-2;
+        run_.tolerance = 1e-4;
+        run_.relative_tolerance = 1e-2;
         problem_.initial = shrunk(problem.initial);
         problem_.sets = {shrunk(problem.around())};
         problem_.measured = nullptr;

@@ -98,7 +98,7 @@ public:
           problem_(problem, what, sides),
           witness_(feasible, what, options.run, limit_),
           data_(problem_.slim, problem.around(), limit_, sides) {
-        run_.enclosure.keep_going = limit_;
+        run_.keep_going = limit_;
         double const cells = static_cast<double>(std::max<std::size_t>(options.cells, 1));
         follow(time_cells(problem, what.times, problem.end / cells));
     }

@@ -4,7 +4,7 @@
 
 #include <sivid/decision/motion/detail/idle_parts.hpp>
 #include <sivid/decision/motion/detail/motion_cover.hpp>
-#include <sivid/paving/contract/detail/cut_contraction.hpp>
+#include <sivid/paving/contract/detail/lp_contractor.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>
 
@@ -42,7 +42,7 @@ public:
         if (said != said_.end()) return said->second;
         stopwatch const asking;
         auto const data = problem.measured(all, limit_);
-        bool const refuted = !data.known.empty() && !cut_contraction()(data.known, all);
+        bool const refuted = !data.known.empty() && !lp_contractor()(data.known, all);
         heard_ += asking.spent();
         if (limit_()) said_.emplace(std::move(key), refuted);
         return refuted;

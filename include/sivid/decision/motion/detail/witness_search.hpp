@@ -26,7 +26,7 @@ public:
     witness_search(feasible_points const& feasible, requirement const& asked, run_options run,
                    work_limit limit)
         : feasible_(&feasible), asked_(&asked), run_(std::move(run)), limit_(std::move(limit)) {
-        run_.enclosure.keep_going = limit_;
+        run_.keep_going = limit_;
     }
 
     [[nodiscard]] bool possible() const {

@@ -3,7 +3,7 @@
 #define SIVID_DECISION_RANKING_DETAIL_EFFECT_COVER_HPP
 
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
@@ -65,7 +65,7 @@ public:
     };
 
     /// @param acts  [parameter][channel]
-    effect_cover(identification_problem const& problem, data_test& test,
+    effect_cover(identification_problem const& problem, feasibility_test& test,
                  std::vector<std::vector<bool>> acts)
         : problem_(&problem), test_(&test), acts_(std::move(acts)) {
         for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
@@ -380,7 +380,7 @@ private:
     }
 
     identification_problem const* problem_;
-    data_test* test_;
+    feasibility_test* test_;
     std::vector<std::vector<bool>> acts_;
     std::vector<std::size_t> first_;   ///< sample of each experiment, then their number
     std::vector<double> scale_;        ///< per sample

@@ -4,7 +4,7 @@
 
 #include <sivid/decision/ranking/measurement_group.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/response/local_response.hpp>
 
 #include <algorithm>
@@ -24,13 +24,13 @@ public:
 
     /// What the others know, and the responses of the group's measurements alone.
     struct knowledge {
-        std::shared_ptr<data_test::knowledge const> others;
+        std::shared_ptr<feasibility_test::knowledge const> others;
         response_list group;
     };
 
     /// @param problem  kept by reference
     others_leave(identification_problem const& problem, measurement_group const& group,
-                 data_test_options const& options, std::vector<box> starts)
+                 feasibility_test_options const& options, std::vector<box> starts)
         : problem_(&problem),
           sharp_enough_(options.sharp_enough),
           without_(without(problem, group)),
@@ -91,7 +91,7 @@ public:
     [[nodiscard]] bool cancelled() const { return others_.cancelled(); }
     [[nodiscard]] std::size_t integrations() const { return others_.integrations(); }
     [[nodiscard]] static std::size_t bytes(knowledge const& known) {
-        auto sum = sizeof(knowledge) + data_test::bytes(*known.others);
+        auto sum = sizeof(knowledge) + feasibility_test::bytes(*known.others);
         for (auto const& r : known.group) sum += r->bytes();
         return sum;
     }
@@ -128,7 +128,8 @@ private:
     }
 
     /// What the others say.
-    [[nodiscard]] static assessment<knowledge> plain(assessment<data_test::knowledge> found) {
+    [[nodiscard]] static assessment<knowledge>
+    plain(assessment<feasibility_test::knowledge> found) {
         assessment<knowledge> result{.verdict = found.verdict, .rest = std::move(found.rest)};
         result.smear = std::move(found.smear);
         result.blind = found.blind;
@@ -138,7 +139,7 @@ private:
     /// What the others say, against what the group does; and the largest share of one of its
     /// outputs' width that does not shrink with the box.
     [[nodiscard]] std::pair<assessment<knowledge>, double>
-    compared(assessment<data_test::knowledge> found, knowledge const& known) const {
+    compared(assessment<feasibility_test::knowledge> found, knowledge const& known) const {
         auto result = plain(std::move(found));
         if (result.verdict == box_verdict::outside) return {std::move(result), 0};
         result.smear.resize(result.rest.size(), 0.0);
@@ -163,7 +164,7 @@ private:
     identification_problem const* problem_;
     double sharp_enough_;
     identification_problem without_;
-    data_test others_;
+    feasibility_test others_;
     std::vector<std::vector<member>> members_; ///< by experiment
 };
 

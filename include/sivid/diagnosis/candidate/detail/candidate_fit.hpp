@@ -41,8 +41,8 @@ namespace sivid {
 
 /// Descents end in the corners that a play has by its width: others begin beside them, until one
 /// explains.
-/// @param descend  a fitter of the problem
-inline void leave_corners(identification_problem const& problem, fitter& descend,
+/// @param descend  an approximate_fitter of the problem
+inline void leave_corners(identification_problem const& problem, approximate_fitter& descend,
                           approximate_fit& found) {
     for (auto const j : widths_of_plays(problem)) {
         auto const& side = problem.prior[j];
@@ -73,13 +73,13 @@ inline void leave_corners(identification_problem const& problem, fitter& descend
                                                    std::function<bool()> const& go_on,
                                                    bool& silent) {
     auto const full = away_from_zero(problem, base.prior.size());
-    if (known == nullptr) return fitter(full, go_on)();
+    if (known == nullptr) return approximate_fitter(full, go_on)();
     bool const many = measurement_count(problem) > 2 * many_measurements;
     auto const narrowed = many ? thinned(full, many_measurements) : full;
     auto const reference =
         many ? thinned(known->fit.residuals, thinned_indices(full, many_measurements))
              : known->fit.residuals;
-    fitter descend(narrowed, go_on);
+    approximate_fitter descend(narrowed, go_on);
     std::vector<std::vector<double>> starts = known->fit.starts;
     auto const first = base.prior.size();
     approximate_fit best;
@@ -138,7 +138,7 @@ inline void leave_corners(identification_problem const& problem, fitter& descend
         }
     }
     if (many && silent) { // the measurements that are left out may hear it
-        fitter all(full, go_on);
+        approximate_fitter all(full, go_on);
         for (std::size_t n = 0; n < count && silent; ++n) {
             go_to(n);
             silent = alike(all.at(parameters, starts).residuals, known->fit.residuals);
@@ -164,7 +164,9 @@ inline void leave_corners(identification_problem const& problem, fitter& descend
         found = descend.at(from, starts);
         found.squares = squares;
     }
-    return many && !found.parameters.empty() ? fitter(full, go_on)({found.parameters, {}}) : found;
+    return many && !found.parameters.empty()
+               ? approximate_fitter(full, go_on)({found.parameters, {}})
+               : found;
 }
 
 } // namespace sivid

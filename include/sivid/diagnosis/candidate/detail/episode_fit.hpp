@@ -58,7 +58,7 @@ public:
         if (ends_.begins && ends_.ends) starts = {{0.2, 0.6}, {0.4, 0.8}};
         if (jumps_only_) return look_roughly_by_jumps(starts);
         auto const wide = thinned(softened(0.15), few_measurements);
-        fitter descend(wide, go_on_);
+        approximate_fitter descend(wide, go_on_);
         for (auto const& [on, off] : starts) {
             take(descend({placed(always_, on, off), {}}, fit_norm::squares));
             auto const other = awakened(descend, on, off);
@@ -78,7 +78,7 @@ public:
         from.insert(from.begin() + place, names_.size(), one_step.ends_.begins ? 1.0 : 0.0);
         if (jumps_only_) return settle(std::move(from));
         auto const sharper = thinned(softened(0.06), few_measurements);
-        take(fitter(sharper, go_on_)({std::move(from), {}}, fit_norm::squares));
+        take(approximate_fitter(sharper, go_on_)({std::move(from), {}}, fit_norm::squares));
     }
     /// By all of them, as sharply as it is; then the fit with the effect switched on there.
     void look_closely() {
@@ -139,7 +139,8 @@ private:
     }
     /// The same with another value of the effect's only parameter, where that fits better: all the
     /// time it may fit best where it sleeps. Else nothing.
-    [[nodiscard]] std::vector<double> awakened(fitter& at, double on, double off) const {
+    [[nodiscard]] std::vector<double> awakened(approximate_fitter& at, double on,
+                                               double off) const {
         if (effect_.parameters.size() != 1) return {};
         auto const misfit = [&](std::vector<double> const& parameters) {
             auto const sums = squares_of(at.roughly_at(parameters, {}).residuals);
@@ -166,7 +167,7 @@ private:
         fit_start from{known_.parameters, {}};
         from.parameters.resize(problem_.prior.size());
         auto const fitted = off_limits(problem_);
-        fitter descend(fitted, go_on_);
+        approximate_fitter descend(fitted, go_on_);
         fit_ = descend(from, fit_norm::largest);
         if (fit_.inflation > 1 && fit_.inflation < 5) leave_corners(fitted, descend, fit_);
         if (!(fit_.inflation > 1 && fit_.inflation < 1.05)) return;
@@ -210,7 +211,8 @@ private:
             auto const now = thinned(off_limits(jumping()), measurements);
             std::vector<double> own(known_.parameters.begin(),
                                     known_.parameters.begin() + std::ssize(always_));
-            auto const found = fitter(now, go_on_)({std::move(own), {}}, fit_norm::squares);
+            auto const found =
+                approximate_fitter(now, go_on_)({std::move(own), {}}, fit_norm::squares);
             if (found.parameters.empty() || !(found.squares < known_.squares)) break;
             std::copy(found.parameters.begin(), found.parameters.end(), known_.parameters.begin());
             known_.starts = found.starts;
@@ -226,7 +228,7 @@ private:
             auto const now = thinned(off_limits(jumping()), measurements);
             auto own = parameters;
             own.resize(always_.size());
-            return squares_of(fitter(now, go_on_).at(own, known_.starts).residuals);
+            return squares_of(approximate_fitter(now, go_on_).at(own, known_.starts).residuals);
         };
         place_steps(misfits, 32, 1e-4);
     }
@@ -237,9 +239,9 @@ private:
         auto const late = thinned(affected(*base_, {effect_}), measurements);
         auto own = known_.parameters;
         own.resize(always_.size());
-        auto const behind = fitter(late, go_on_).at(own, known_.starts).residuals;
+        auto const behind = approximate_fitter(late, go_on_).at(own, known_.starts).residuals;
         own.resize(base_->prior.size());
-        auto const ahead = fitter(on_time, go_on_).at(own, known_.starts).residuals;
+        auto const ahead = approximate_fitter(on_time, go_on_).at(own, known_.starts).residuals;
         if (ahead.size() != names_.size() || behind.size() != names_.size()) return;
         auto* const own_steps = known_.parameters.data() + always_.size();
         for (std::size_t s = 0; s < names_.size(); ++s) {
@@ -311,7 +313,7 @@ private:
     void look_everywhere(double length, std::size_t measurements) {
         if (known_.parameters.size() <= always_.size()) return;
         auto const soft = thinned(softened(length), measurements);
-        fitter at(soft, go_on_);
+        approximate_fitter at(soft, go_on_);
         auto const misfits = [&](std::vector<double> const& parameters) {
             return squares_of(at.roughly_at(parameters, known_.starts).residuals);
         };

@@ -7,8 +7,8 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/model/structure/combination.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/equation_aided_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
@@ -45,7 +45,7 @@ public:
         auto posed = map ? map->problem() : problem;
         if (map) posed.prior = map->forward(problem.prior, known);
         if (is_empty(posed.prior)) return std::nullopt;
-        data_test test(posed, limited(options_->test, limit_));
+        feasibility_test test(posed, limited(options_->test, limit_));
         inversion_options search{
             .accuracy_of_hull = true, .hull_gain = 0.02, .small_hull = 1e-3, .keep_outside = false};
         search.seconds = time.value_or(share) * limit_.seconds();

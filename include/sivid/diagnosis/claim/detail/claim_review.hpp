@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_CLAIM_DETAIL_CLAIM_REVIEW_HPP
 #define SIVID_DIAGNOSIS_CLAIM_DETAIL_CLAIM_REVIEW_HPP
 
-#include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/approximate/fit/detail/approximate_campaign.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
@@ -47,7 +47,7 @@ namespace sivid {
 ///   In plain doubles: it can only take a proof back.
 [[nodiscard]] inline bool breaks_assumptions(screened const& s, relation_finding const& f) {
     if (f.variations.empty() || s.fit.parameters.empty()) return false;
-    campaign motion(s.problem);
+    approximate_campaign motion(s.problem);
     auto const z = motion.variables(s.fit.parameters, s.fit.starts);
     std::map<std::string, simulated_trace> seen;
     for (auto const& v : f.variations) {

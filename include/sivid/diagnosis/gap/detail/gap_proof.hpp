@@ -59,7 +59,7 @@ hardest_experiments(identification_problem problem, approximate_fit const& fit, 
 
 /// A validated run at the fit: nothing is known from below.
 [[nodiscard]] inline verified_inflation verify_fit(screened const& s,
-                                                   data_test_options const& test = {}) {
+                                                   feasibility_test_options const& test = {}) {
     auto result = verify_at(s.problem, s.fit, test);
     result.range = interval_traits<interval>::bounds(0, result.range.upper());
     return result;

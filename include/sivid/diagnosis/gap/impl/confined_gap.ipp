@@ -118,7 +118,7 @@ private:
     [[nodiscard]] approximate_fit fit_of_others(data_part const& part) const {
         constexpr double promising = 3, close = 1.05;
         auto const others = bound_growth::of(*p_, part)(*p_, nothing);
-        fitter descend(others, options_->go_on);
+        approximate_fitter descend(others, options_->go_on);
         auto best = descend({fit_->parameters});
         auto const try_again = [&](double below, fit_start const& from) {
             if (!(best.inflation > 1 && best.inflation < below)) return;
@@ -190,7 +190,7 @@ private:
         while (high > low * (1 + precision) && go_on()) {
             double const middle = std::sqrt(low) * std::sqrt(high);
             auto const problem = by(*p_, (middle - 1) / share);
-            auto next = fitter(problem, options_->go_on)({at.parameters});
+            auto next = approximate_fitter(problem, options_->go_on)({at.parameters});
             if (next.inflation > 1) {
                 low = middle;
             } else {
@@ -245,8 +245,8 @@ private:
     [[nodiscard]] std::optional<error_correlation>
     correlation(data_part const& part, bound_growth const& times, least_growth const& known) const {
         auto const grown = times(*p_, known.upper);
-        auto const at =
-            fitter(grown, options_->go_on)({known.at.parameters, {}}, fit_norm::squares);
+        auto const at = approximate_fitter(grown, options_->go_on)({known.at.parameters, {}},
+                                                                   fit_norm::squares);
         if (at.residuals.empty()) return std::nullopt;
         std::vector<error_sequence> records(grown.experiments.size());
         for (std::size_t e = 0; e < records.size(); ++e) {
@@ -277,8 +277,8 @@ private:
             auto at = known.at, shown = at;
             double high = 1 + widest;
             for (bool const last : {false, true}) {
-                at = fitter(by(*p_, widest / by.greatest_share(*p_)),
-                            options_->go_on)({at.parameters});
+                at = approximate_fitter(by(*p_, widest / by.greatest_share(*p_)),
+                                        options_->go_on)({at.parameters});
                 high = 1 + widest;
                 if (last || at.inflation > 1) break;
                 approach(by, by.greatest_share(*p_), at, high);
@@ -301,7 +301,7 @@ private:
     /// The size of what a channel shows at a fit, or of its rate, by central differences.
     [[nodiscard]] bound_growth growth_with(noise_growth::with what, data_part const& part,
                                            approximate_fit const& at) const {
-        auto const there = fitter(*p_).at(at.parameters, at.starts);
+        auto const there = approximate_fitter(*p_).at(at.parameters, at.starts);
         std::vector<std::map<double, double>> shown(p_->experiments.size()); // by time
         for (std::size_t e = 0; e < p_->experiments.size(); ++e) {
             auto const data = sorted(p_->experiments[e].measurements);

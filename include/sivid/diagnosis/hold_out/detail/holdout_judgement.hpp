@@ -66,7 +66,7 @@ judge_by_holdout(screened const& fitted, verified_inflation const& bound,
     auto there = judged;
     for (std::size_t j = 0; j < p.size(); ++j) there.prior[j] = interval(p[j]);
     start_added_states(there);
-    result.run = fitter(there, search.test.run.enclosure.keep_going)({p});
+    result.run = approximate_fitter(there, search.test.keep_going)({p});
     result.at_witness = verify_at(there, result.run, search.test).range;
     if (has_uncertain_starts(there)) { // another start may do better
         result.at_witness = interval_traits<interval>::bounds(0, result.at_witness.upper());

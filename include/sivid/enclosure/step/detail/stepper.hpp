@@ -27,7 +27,7 @@ std::pair<double, std::size_t> stepper<I>::estimate(basic_box<I> const& x) const
 template <class I>
 double stepper<I>::propose(double limit, double from, basic_box<I> const& x) const {
     double const rest = limit - from;
-    double const h = std::min({options_.maximum_step, rest, learned_ * estimate(x).first});
+    double const h = std::min({options_.longest_step(), rest, learned_ * estimate(x).first});
     if (h >= rest) return rest;
     return h > 0.5 * rest ? 0.5 * rest : h; // no tiny last step
 }
@@ -150,7 +150,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             smooth = false;
             cut = true;
             start_order = 0;
-            h = std::min(h, options_.maximum_step);
+            h = std::min(h, options_.longest_step());
             continue;
         }
         if (!proved) {
@@ -294,7 +294,7 @@ std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, doub
     double const constant = 1 / long_->stiffness(set.time, x);
     std::vector<double> margin(n);
     for (std::size_t i = 0; i < n; ++i) margin[i] = allowed(x, i);
-    double h = std::min({rest, options_.maximum_step, long_length_});
+    double h = std::min({rest, options_.longest_step(), long_length_});
     if (h < rest && h > 0.5 * rest) h = 0.5 * rest;
     double const proposed = h;
     for (int attempt = 0; attempt < 12 && h > shortest * constant; ++attempt) {

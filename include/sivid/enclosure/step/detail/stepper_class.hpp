@@ -69,7 +69,7 @@ public:
         if (method_) method_->set_parameters(centre);
         if (implicit_) implicit_->set_parameters(centre);
         if (long_) long_->set_parameters(e.parameters, e.parameter_centre);
-        long_length_ = options_.maximum_step;
+        long_length_ = options_.longest_step();
         long_pause_ = 0;
         learned_ = 1;
         near_ = HUGE_VAL;

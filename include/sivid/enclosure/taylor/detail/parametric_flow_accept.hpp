@@ -121,7 +121,7 @@ void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
         if (!side_by_side::test(moved, l)) continue;
         double const h = side_by_side::get(length, l);
         clamped = clamped && (side_by_side::get(to, l) >= flow_->next_knot(time(l)) ||
-                              h >= options_.maximum_step || lanes_[l].held);
+                              h >= options_.longest_step() || lanes_[l].held);
     }
     if (order > 0) {
         // What V's Lagrange term adds to the reach may be a share of what the step may lose anyway.

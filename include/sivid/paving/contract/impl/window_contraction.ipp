@@ -35,9 +35,9 @@ public:
           options_(options),
           limit_(options.seconds, options.keep_going),
           model_(with_states_seen(problem.model)) {
-        options_.run.enclosure.keep_going = limit_;
+        options_.run.keep_going = limit_;
         // Inputs held for a millisecond end as many steps, each with its own truncation.
-        options_.run.enclosure.relative_tolerance *= 0.01;
+        options_.run.relative_tolerance *= 0.01;
         result_.rest = problem.prior;
         for (auto const& e : problem.experiments) {
             result_.starts.push_back(e.initial);
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] window_contraction operator()() {
         stopwatch const clock;
         auto const& run = options_.run;
-        bool const as_asked = run.set == carried_set::taylor_model && !run.enclosure.method &&
+        bool const as_asked = run.set == carried_set::taylor_model && !run.method &&
                               run.make == nullptr; // else by other means than these
         if (as_asked && !problem_->model.has_memory() && problem_->model.added_states.empty()) {
             std::vector<window> chain;
@@ -103,7 +103,7 @@ private:
         auto const e = windows.front()->experiment;
         auto options = options_.run;
         options.degree = degree_;
-        options.enclosure = steps_for(problem_->experiments[e], std::move(options.enclosure));
+        static_cast<enclosure_options&>(options) = steps_for(problem_->experiments[e], options);
         std::vector<experiment> parts;
         for (auto const* w : windows) parts.push_back(part_of(*w));
         auto const answers = run_parts(*flows_[e], parts, result_.rest, options);

@@ -59,7 +59,7 @@ public:
 ///             least `lower()` and more than the bound above which boxes were dropped
 class inflation_search : public response_search<inflation_policy> {
 public:
-    inflation_search(identification_problem const& problem, data_test_options const& options)
+    inflation_search(identification_problem const& problem, feasibility_test_options const& options)
         : response_search(problem, options, {.outliers = outlier_budgets(problem)}, problem.prior) {
     }
 

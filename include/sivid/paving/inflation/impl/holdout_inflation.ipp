@@ -6,14 +6,14 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/number/guard.hpp>
-#include <sivid/paving/contract/detail/cut_contraction.hpp>
+#include <sivid/paving/contract/detail/lp_contractor.hpp>
 #include <sivid/paving/contract/detail/predicted_outputs.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation/detail/inflation_relaxation.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/response_search.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/response/misfit.hpp>
@@ -125,7 +125,7 @@ private:
     [[nodiscard]] static bool contract(response_list const& met, box& set) {
         for (int round = 0; round < 4; ++round) {
             auto const before = set;
-            if (!cut_contraction{}(met, set)) return false;
+            if (!lp_contractor{}(met, set)) return false;
             bool moved = false;
             for (std::size_t j = 0; j < set.size(); ++j)
                 moved |= width(set[j]) < 0.9 * width(before[j]);
@@ -285,11 +285,11 @@ started_near(identification_problem posed, std::size_t fitted,
     for (auto& e : posed.experiments) {
         for (auto& m : e.measurements) m.bound = grown(m.bound, level);
     }
-    data_test test(posed, options.test);
+    feasibility_test test(posed, options.test);
     inversion_options search{.accuracy_of_hull = true, .hull_gain = 0.02, .keep_outside = false};
     search.seconds = seconds;
     search.boxes = options.work;
-    search.keep_going = [&options] { return !options.test.run.enclosure.cancelled(); };
+    search.keep_going = [&options] { return !options.test.cancelled(); };
     auto const paving = invert(test, start, search).paving;
     return paving.has_outer() ? intersect(paving.outer_hull(), start) : start;
 }
@@ -309,7 +309,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
     }
     stopwatch const clock;
     auto const in_time = [&] {
-        return clock.spent() < options.seconds && !options.test.run.enclosure.cancelled();
+        return clock.spent() < options.seconds && !options.test.cancelled();
     };
     auto timely = options;
     timely.test = limited(options.test, in_time);

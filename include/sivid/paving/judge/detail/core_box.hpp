@@ -3,7 +3,7 @@
 #define SIVID_PAVING_JUDGE_DETAIL_CORE_BOX_HPP
 
 #include <sivid/paving/contract/detail/weighted_certificate.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/space/box.hpp>
 
@@ -154,7 +154,7 @@ private:
 /// @param around  the first region: what is left of the prior, with the point in it
 /// @returns  nothing when none was found, or the test was told to stop before
 /// @cost  eight integrations of each experiment, and some hundred re-expansions of each response
-[[nodiscard]] inline std::optional<box> core_about(data_test& test, box const& around,
+[[nodiscard]] inline std::optional<box> core_about(feasibility_test& test, box const& around,
                                                    std::vector<double> const& point) {
     using traits = interval_traits<interval>;
     std::vector<box> regions;

@@ -4,7 +4,7 @@
 
 #include <sivid/model/problem.hpp>
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/observer/detail/observer_contraction.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
 #include <sivid/paving/run/detail/lending_pool.hpp>
@@ -42,18 +42,19 @@ namespace sivid {
     return rest;
 }
 
-/// `data_test`, and where its runs end before they could tell interval observers and the state
-/// equations between samples: together they search a prior over which no trajectory is carried far.
+/// `feasibility_test`, and where its runs end before they could tell interval observers and the
+/// state equations between samples: together they search a prior over which no trajectory is
+/// carried far.
 /// @guarantee  as all of them; what observers and equations exclude has no certificate
 class equation_aided_test {
 public:
     static constexpr bool concurrent = true;
-    using knowledge = data_test::knowledge;
+    using knowledge = feasibility_test::knowledge;
 
     /// @param runs, problem  outlive this
     /// @param below  the share of the measurements that runs over a box reach, below which the
     ///               equations are asked
-    equation_aided_test(data_test& runs, identification_problem const& problem,
+    equation_aided_test(feasibility_test& runs, identification_problem const& problem,
                         relation_contraction_options const& options, double below = 0.5)
         : runs_(&runs),
           equations_(problem, options),
@@ -79,7 +80,7 @@ public:
         for (std::size_t k = 0; k < boxes.size(); ++k) {
             auto& found = results[k];
             if (!asks_ || found.verdict != box_verdict::undecided ||
-                (found.knowledge && !(data_test::reached(found) < below_)))
+                (found.knowledge && !(feasibility_test::reached(found) < below_)))
                 continue;
             early = true;
             found.proof.clear();
@@ -98,12 +99,12 @@ public:
     /// One box while runs end early: what its equations say tells which side to split.
     [[nodiscard]] std::size_t at_once() const { return early_ ? 1 : runs_->at_once(); }
     [[nodiscard]] static std::size_t bytes(knowledge const& known) {
-        return data_test::bytes(known);
+        return feasibility_test::bytes(known);
     }
     [[nodiscard]] bool cancelled() const { return runs_->cancelled(); }
 
 private:
-    data_test* runs_;
+    feasibility_test* runs_;
     relation_test equations_;
     lending_pool<observer_contraction> observers_;
     bool asks_;

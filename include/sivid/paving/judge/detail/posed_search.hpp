@@ -6,8 +6,8 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identify_options.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/prior_contraction.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 
@@ -27,7 +27,7 @@ inline identification_problem as_searched(identification_problem problem, algori
     return problem;
 }
 /// The test that it asks.
-inline data_test_options as_searched(data_test_options test, algorithm how) {
+inline feasibility_test_options as_searched(feasibility_test_options test, algorithm how) {
     if (how != algorithm::contracting) test.contract = false;
     return test;
 }
@@ -65,7 +65,7 @@ public:
     [[nodiscard]] identification_problem const& posed() const {
         return map_ ? map_->problem() : *working_;
     }
-    [[nodiscard]] data_test& unhindered() { return *unhindered_; }
+    [[nodiscard]] feasibility_test& unhindered() { return *unhindered_; }
 
     /// What comes before the search; called once.
     /// @throws std::invalid_argument  for what is of another problem
@@ -82,7 +82,7 @@ public:
     [[nodiscard]] identification_problem const& asked() const {
         return narrowed_ ? *narrowed_ : posed();
     }
-    [[nodiscard]] data_test& test() { return further_ ? *further_ : *unhindered_; }
+    [[nodiscard]] feasibility_test& test() { return further_ ? *further_ : *unhindered_; }
     /// Integrations of all tests.
     [[nodiscard]] std::size_t integrations() const {
         return unhindered_->integrations() + (further_ ? further_->integrations() : 0);
@@ -90,11 +90,11 @@ public:
 
 private:
     identification_problem const* working_;
-    data_test_options options_;
+    feasibility_test_options options_;
     std::optional<reduction> map_;
-    std::optional<data_test> unhindered_;
+    std::optional<feasibility_test> unhindered_;
     std::optional<identification_problem> narrowed_; ///< whose starts windows have contracted
-    std::optional<data_test> further_;
+    std::optional<feasibility_test> further_;
 };
 
 } // namespace sivid::paving_detail

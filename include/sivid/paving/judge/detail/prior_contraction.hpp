@@ -13,10 +13,10 @@
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identify_options.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/equation_aided_test.hpp>
 #include <sivid/paving/judge/detail/equation_guide.hpp>
 #include <sivid/paving/judge/detail/shape_contraction.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -32,7 +32,7 @@
 namespace sivid::paving_detail {
 
 /// Whether trajectories over the prior end early, from starts that nobody knows.
-inline bool starts_hinder(data_test& test, identification_problem const& problem) {
+inline bool starts_hinder(feasibility_test& test, identification_problem const& problem) {
     bool const known = std::all_of(
         problem.experiments.begin(), problem.experiments.end(),
         [](experiment const& e) { return normalised_unknowns(e.initial, {}).variables == 0; });
@@ -72,7 +72,7 @@ inline double sample_period(identification_problem const& problem) {
 }
 
 /// The share of the measurements that a run at the fit tells to half their bounds.
-inline double seen_sharply(data_test& test, identification_problem const& problem,
+inline double seen_sharply(feasibility_test& test, identification_problem const& problem,
                            box const& fitted, std::vector<box> const& starts) {
     auto const point = point_box(mid(fitted));
     std::size_t sharp = 0, all = 0;
@@ -92,16 +92,16 @@ inline double seen_sharply(data_test& test, identification_problem const& proble
 /// What a search with slower inputs leaves of the prior, where that pays: see `identify_options`.
 /// @param fitted  where they are tried, from `starts`
 inline std::optional<window_contraction>
-contract_by_slower_inputs(data_test& exact, identification_problem const& posed, box const& fitted,
-                          std::vector<box> const& starts, identify_options const& options,
-                          work_limit const& limit) {
+contract_by_slower_inputs(feasibility_test& exact, identification_problem const& posed,
+                          box const& fitted, std::vector<box> const& starts,
+                          identify_options const& options, work_limit const& limit) {
     stopwatch const clock;
     double const period = 10 * sample_period(posed);
     if (!(period > 0)) return std::nullopt;
     if (!(exact.reached(posed.prior) < 0.25)) return std::nullopt;
     auto slow = with_slower_inputs(posed, period);
     if (!slow) return std::nullopt;
-    data_test test(*slow, options.test);
+    feasibility_test test(*slow, options.test);
     if (!limit() || seen_sharply(test, *slow, fitted, starts) < 0.25) return std::nullopt;
     double const most = 0.5 * limit.seconds();
     window_contraction result;
@@ -109,13 +109,13 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
     for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
     if (options.windows && starts_hinder(test, *slow)) {
         // They are cheaper here than over the recorded inputs, and end by themselves.
-        result = contract_by_windows(*slow, {.run = options.test.run,
+        result = contract_by_windows(*slow, {.run = options.test,
                                              .seconds = 0.6 * limit.seconds(),
                                              .keep_going = limit,
                                              .workers = options.search.workers});
         *slow = narrowed_by(result, *std::move(slow));
     }
-    data_test further(*slow, options.test);
+    feasibility_test further(*slow, options.test);
     auto search = options.search;
     search.hull_gain = 0.02;
     search.keep_outside = false;
@@ -138,7 +138,7 @@ contract_by_slower_inputs(data_test& exact, identification_problem const& posed,
 
 /// What equations and observers leave of the prior where runs over it reach less than a quarter of
 /// the measurements; nothing where they reach more, or nothing is gained.
-inline std::optional<window_contraction> contract_by_equations(data_test& test,
+inline std::optional<window_contraction> contract_by_equations(feasibility_test& test,
                                                                identification_problem const& posed,
                                                                work_limit const& limit) {
     if (posed.model.has_memory() || !(test.reached(posed.prior) < 0.25)) return std::nullopt;
@@ -156,12 +156,12 @@ inline std::optional<window_contraction> contract_by_equations(data_test& test,
 /// nothing where neither is so, or nothing is gained.
 /// @param share  of the time, at most
 inline std::optional<window_contraction>
-contract_by_growing_windows(data_test& test, identification_problem const& posed,
+contract_by_growing_windows(feasibility_test& test, identification_problem const& posed,
                             identify_options const& options, work_limit const& limit,
                             double share = 0.7) {
     constexpr std::size_t many = 5;
     if (posed.prior.size() < many && !(test.reached(posed.prior) < 0.5)) return std::nullopt;
-    auto found = contract_by_windows(posed, {.run = options.test.run,
+    auto found = contract_by_windows(posed, {.run = options.test,
                                              .seconds = share * limit.seconds(),
                                              .keep_going = limit,
                                              .workers = options.search.workers,
@@ -182,7 +182,7 @@ contract_by_guided_windows(identification_problem const& posed, identify_options
     auto const slow = period > 0 ? with_slower_inputs(seen, period) : std::nullopt;
     auto const& carried = slow ? *slow : posed;
     equation_guide const guide(posed, carried, limit);
-    auto found = contract_by_windows(carried, {.run = options.test.run,
+    auto found = contract_by_windows(carried, {.run = options.test,
                                                .seconds = 0.9 * limit.seconds(),
                                                .keep_going = limit,
                                                .workers = options.search.workers,
@@ -199,12 +199,12 @@ contract_by_guided_windows(identification_problem const& posed, identify_options
 /// @param fitted  parameters that explain the data best, or the prior
 /// @param starts  of each experiment, with them; or none
 inline std::optional<window_contraction>
-contract_prior(data_test& test, identification_problem const& posed, box const& fitted,
+contract_prior(feasibility_test& test, identification_problem const& posed, box const& fitted,
                std::vector<box> const& starts, identify_options const& options,
                work_limit const& limit) {
     std::optional<window_contraction> result;
     auto hindered = posed;
-    std::optional<data_test> after;
+    std::optional<feasibility_test> after;
     auto const go_on_with = [&](window_contraction found) {
         result = result ? joined(*result, std::move(found)) : std::move(found);
         if (result->empty()) return false;
@@ -214,7 +214,7 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
         after.emplace(hindered, options.test);
         return true;
     };
-    auto const asked = [&]() -> data_test& { return after ? *after : test; };
+    auto const asked = [&]() -> feasibility_test& { return after ? *after : test; };
     bool again = false, slowed = false;
     if (options.windows && limit() && test.reached(posed.prior) < 0.25) {
         if (auto found = contract_by_shapes(posed, options, limit)) {
@@ -252,7 +252,7 @@ contract_prior(data_test& test, identification_problem const& posed, box const& 
         }
     }
     if (options.windows && limit() && (again || starts_hinder(asked(), hindered))) {
-        auto found = contract_by_windows(hindered, {.run = options.test.run,
+        auto found = contract_by_windows(hindered, {.run = options.test,
                                                     .seconds = 0.8 * limit.seconds(),
                                                     .keep_going = limit,
                                                     .workers = options.search.workers});

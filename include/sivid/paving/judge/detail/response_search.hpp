@@ -40,7 +40,7 @@ public:
     using node = typename Policy::node;
 
     /// @param known  what holds all over the start
-    response_search(identification_problem const& problem, data_test_options const& options,
+    response_search(identification_problem const& problem, feasibility_test_options const& options,
                     Policy policy, box start, node known = {})
         : policy_(std::move(policy)), explorer_(problem, options) {
         waiting_.push_back(explorer_.unknown(std::move(start), std::move(known)));

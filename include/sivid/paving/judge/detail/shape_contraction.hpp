@@ -32,7 +32,7 @@ public:
 
     [[nodiscard]] window_contraction operator()() {
         auto const posed = shaped_->parameters();
-        auto const& run = options_->test.run;
+        run_options const& run = options_->test;
         bool left = true;
         if (shaped_->shape(1e-7, *limit_)) {
             left = windows({.run = run, .seconds = 0.1 * limit_->seconds(), .chained = 1}) &&

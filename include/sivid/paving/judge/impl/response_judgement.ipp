@@ -5,8 +5,8 @@
 #include <sivid/paving/judge/detail/response_judgement.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/paving/contract/detail/cut_contraction.hpp>
 #include <sivid/paving/contract/detail/explaining_starts.hpp>
+#include <sivid/paving/contract/detail/lp_contractor.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -57,8 +57,7 @@ SIVID_DECL response_judgement judge_by_responses(response_list const& all,
                explaining_starts(*all[e], rest)().has_value();
     });
     result.verdict = inside ? box_verdict::inside : box_verdict::undecided;
-    if (!inside && options.contract && options.cut &&
-        !cut_contraction()(all, rest, &result.proof)) {
+    if (!inside && options.contract && options.cut && !lp_contractor()(all, rest, &result.proof)) {
         result.verdict = box_verdict::outside;
         result.share = 0;
     }

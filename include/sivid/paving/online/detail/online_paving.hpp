@@ -27,7 +27,7 @@ namespace sivid {
 class online_paving {
 public:
     /// @param problem  as for `online_test`
-    online_paving(identification_problem const& problem, data_test_options const& options)
+    online_paving(identification_problem const& problem, feasibility_test_options const& options)
         : prior_(problem.prior), test_(problem, options) {
         boxes_.push_back({.set = prior_});
     }

@@ -3,8 +3,8 @@
 #define SIVID_PAVING_ONLINE_DETAIL_ONLINE_TEST_HPP
 
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/judge/data_test.hpp>
 #include <sivid/paving/judge/detail/response_judgement.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/online/detail/online_region.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
 
@@ -26,13 +26,14 @@ public:
     using region_list = std::vector<std::shared_ptr<online_region>>;
 
     /// @param problem  with or without measurements; kept by reference
-    online_test(identification_problem const& problem, data_test_options options)
+    online_test(identification_problem const& problem, feasibility_test_options options)
         : problem_(&problem), options_(std::move(options)) {
         for (auto const& e : problem.experiments) {
             flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, e.inputs,
                                                     region_of_runs{e.initial, problem.prior}));
-            options_.run = paving_detail::options_for(*flows_.back(), std::move(options_.run));
-            runs_.push_back(make_continued_run(*flows_.back(), e, problem.prior, options_.run));
+            static_cast<run_options&>(options_) =
+                paving_detail::options_for(*flows_.back(), options_);
+            runs_.push_back(make_continued_run(*flows_.back(), e, problem.prior, options_));
             arrived_.emplace_back();
             front_.push_back(e.begin);
             starts_.push_back(e.initial);
@@ -174,7 +175,7 @@ private:
                     auto& y = outputs[f][c];
                     auto const& bound = samples[together[c]].bound;
                     hopeless = hopeless && paving_detail::is_hopeless(y.radius, y.spread(), bound,
-                                                                      options_.run.hopeless);
+                                                                      options_.hopeless);
                     double const reach = (y.spread() + y.radius) * (1 + 1e-9);
                     double const least = y.coefficients[0] - reach;
                     double const most = y.coefficients[0] + reach;
@@ -216,7 +217,7 @@ private:
     }
 
     identification_problem const* problem_;
-    data_test_options options_;
+    feasibility_test_options options_;
     std::vector<std::unique_ptr<flow>> flows_;
     std::vector<std::unique_ptr<continued_run>> runs_;
     std::vector<record> arrived_;

@@ -5,7 +5,7 @@
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/run/detail/doubleton_run.hpp>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace sivid {
 class online_witness {
 public:
     /// @param problem  holds all measurements so far whenever a member is called
-    online_witness(identification_problem const& problem, data_test_options const& options)
+    online_witness(identification_problem const& problem, feasibility_test_options const& options)
         : problem_(&problem), options_(options.witness) {
         for (auto const& e : problem.experiments) {
             flows_.push_back(
@@ -65,14 +65,15 @@ public:
     }
 
     /// Proposes a point by a fit to all measurements, from the last one, and verifies it.
-    /// @param keep_going  as of `fitter`; a fit that is cut short is what the next one begins with
+    /// @param keep_going  as of `approximate_fitter`; a fit that is cut short is what the next one
+    /// begins with
     /// @cost  grows with the number of measurements, unlike `add`
     void find(std::function<bool()> const& keep_going) {
         auto known = *problem_;
         std::erase_if(known.experiments,
                       [](experiment const& e) { return e.measurements.empty(); });
         if (known.experiments.empty()) return;
-        fitter fit(known, keep_going);
+        approximate_fitter fit(known, keep_going);
         auto guess = fit({last_});
         if (!(guess.inflation < 1) && !last_.empty()) guess = fit();
         if (guess.parameters.empty()) return;
@@ -119,7 +120,7 @@ private:
     void begin(std::size_t e) {
         auto const& own = problem_->experiments[e];
         runs_[e] = std::make_unique<paving_detail::doubleton_continuation>(*flows_[e], own.begin,
-                                                                           options_.enclosure);
+                                                                           options_);
         time_[e] = own.begin;
         (void)runs_[e]->begin(starts_[e], parameters_);
     }

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_OUTLIERS_DETAIL_OUTLIER_COUNT_HPP
 
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/contract/detail/cut_contraction.hpp>
+#include <sivid/paving/contract/detail/lp_contractor.hpp>
 #include <sivid/paving/judge/detail/response_search.hpp>
 #include <sivid/paving/outliers/outlier_search_options.hpp>
 #include <sivid/paving/response/local_response.hpp>
@@ -56,14 +56,14 @@ struct outlier_policy {
             for (r->allowed = n.least[e]; r->allowed <= spare(e); ++r->allowed) {
                 auto part = n.set;
                 if (cancelled()) break; // so many are proved, perhaps more are needed
-                if (!assess(*r, part).refuted && cut_contraction()({r}, part)) break;
+                if (!assess(*r, part).refuted && lp_contractor()({r}, part)) break;
             }
             n.least[e] = r->allowed;
         }
         n.bound = std::max(n.bound, sum(n.least));
         if (n.bound > most) return none();
         auto joint = n.set;
-        if (n.known.size() > 1 && !cut_contraction()(allowing(n.known, n.least), joint)) {
+        if (n.known.size() > 1 && !lp_contractor()(allowing(n.known, n.least), joint)) {
             n.bound = std::max(n.bound, sum(n.least) + 1);
             if (n.bound > most) return none();
         }
@@ -78,7 +78,7 @@ struct outlier_policy {
             for (std::size_t j = 0; j < n.set.size(); ++j) n.smear[j] += says.smear[j];
             n.stale[e] = r.outputs() < r.measurements || !(says.sharpness <= sharp_enough);
         }
-        if (!cut_contraction()(known, n.set)) return none();
+        if (!lp_contractor()(known, n.set)) return none();
         n.volume = relative_volume(n.set, prior).upper();
     }
 

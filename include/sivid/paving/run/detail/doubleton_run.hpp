@@ -56,10 +56,7 @@ class doubleton_run final : public experiment_run {
 public:
     doubleton_run(flow const& f, experiment const& e, record const& samples,
                   run_options const& options)
-        : experiment_(&e),
-          samples_(&samples),
-          hopeless_(options.hopeless),
-          carried_(f, options.enclosure) {}
+        : experiment_(&e), samples_(&samples), hopeless_(options.hopeless), carried_(f, options) {}
 
     using experiment_run::operator();
 

@@ -40,7 +40,7 @@ public:
     /// @param unknowns, degree  of the polynomials
     taylor_lanes(flow const& f, run_options const& options, std::size_t unknowns,
                  std::size_t degree)
-        : options_(options), flow_(f, options.enclosure, unknowns, degree) {}
+        : options_(options), flow_(f, options, unknowns, degree) {}
 
     std::vector<std::shared_ptr<response const>>
     operator()(std::vector<lane_task> const& families) {

@@ -27,16 +27,16 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
     auto const unknowns = unknown_count(initial, prior);
     auto const degree = degree_for(options, unknowns);
     // Points one by one: where nothing is unknown there are no boxes to fill the lanes.
-    if (options.set == carried_set::taylor_model && options.make == nullptr &&
-        !options.enclosure.method && degree == 0)
+    if (options.set == carried_set::taylor_model && options.make == nullptr && !options.method &&
+        degree == 0)
         return make_scalar_run(f, e, samples, initial, prior, options);
     options = options_for(f, std::move(options));
-    options.enclosure = steps_for(e, std::move(options.enclosure));
+    static_cast<enclosure_options&>(options) = steps_for(e, options);
     if (options.set == carried_set::taylor_model) {
         if (options.make != nullptr) return options.make(f, e, samples, initial, prior, options);
-        if (options.enclosure.method) {
+        if (options.method) {
             throw std::invalid_argument(
-                "run_options: Taylor models follow the method '" + options.enclosure.method->name +
+                "run_options: Taylor models follow the method '" + options.method->name +
                 "' with make = runge_kutta_run (sivid/paving/run/runge_kutta_run.hpp), else the "
                 "Taylor series alone; sets of first order (carried_set::doubleton) take any "
                 "method");
@@ -52,7 +52,7 @@ SIVID_DECL std::unique_ptr<experiment_run> make_scalar_run(flow const& f, experi
                                                            run_options options) {
     using namespace paving_detail;
     options = options_for(f, std::move(options));
-    options.enclosure = steps_for(e, std::move(options.enclosure));
+    static_cast<enclosure_options&>(options) = steps_for(e, options);
     auto const unknowns = unknown_count(initial, prior);
     return std::make_unique<taylor_run<double>>(f, e, samples, options, unknowns,
                                                 degree_for(options, unknowns));
@@ -63,7 +63,7 @@ SIVID_DECL std::unique_ptr<continued_run> make_continued_run(flow const& f, expe
                                                              run_options const& options) {
     using namespace paving_detail;
     auto const unknowns = unknown_count(e.initial, prior);
-    auto const how = steps_for(e, options.enclosure);
+    auto const how = steps_for(e, options);
     if (options.set == carried_set::taylor_model) {
         return std::make_unique<taylor_continuation>(f, e.begin, how, unknowns,
                                                      suggested_degree(unknowns));

@@ -99,7 +99,7 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
     experiment run{whole.name, whole.inputs, whole.begin, whole.initial, samples, samples.size()};
     flow const f(seen, problem.choice, whole.inputs, region_of_runs{whole.initial, parameters});
     auto const r = (*make_run(f, run, samples, parameters, options))(whole.initial, parameters);
-    result.interrupted = options.enclosure.cancelled();
+    result.interrupted = options.cancelled();
     auto const local = expand(*r, parameters);
     auto const ranges = output_ranges(*r, local);
     auto const against_limit = [&](std::size_t i, double width) {
@@ -155,7 +155,7 @@ SIVID_DECL std::vector<run_reach> reach_of_runs(identification_problem const& pr
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& known = problem.experiments[e];
         if (known.measurements.empty() || known.constraint) continue;
-        if (run.enclosure.cancelled()) break;
+        if (run.cancelled()) break;
         result.push_back(paving_detail::reach_of_run(problem, e, seen, parameters, run));
     }
     return result;

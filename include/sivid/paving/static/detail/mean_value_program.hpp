@@ -3,7 +3,7 @@
 #define SIVID_PAVING_STATIC_DETAIL_MEAN_VALUE_PROGRAM_HPP
 
 #include <sivid/paving/contract/detail/cut_program.hpp>
-#include <sivid/paving/response/linear_contraction.hpp>
+#include <sivid/paving/response/linear_contractor.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/linear_program/minimax_lp.hpp>
 

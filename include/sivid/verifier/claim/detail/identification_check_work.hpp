@@ -39,7 +39,7 @@ public:
           options_(options),
           limit_(options.seconds, options.certificate.keep_going) {
         auto& how = options_.certificate;
-        how.keep_going = how.enclosure.keep_going = options_.run.enclosure.keep_going = limit_;
+        how.keep_going = options_.run.keep_going = limit_;
     }
 
     /// All findings, each handed to `tell` as soon as it is there.
@@ -57,7 +57,7 @@ public:
         // Each of what takes long gets a share of the time that is left.
         auto const within = [&](double share) { options.seconds = share * limit_.seconds(); };
         // Finer than the search: what it cut off must be cut off again.
-        auto& fine = options.run.enclosure;
+        auto& fine = options.run;
         double const stated = stored_->tolerance > 0 ? stored_->tolerance : fine.tolerance;
         fine.tolerance = std::clamp(0.01 * stated, 1e-11, fine.tolerance);
         fine.relative_tolerance = std::min(fine.relative_tolerance, 1e3 * fine.tolerance);
@@ -92,7 +92,7 @@ public:
         });
         add([&] { return witness(); });
         add([&] {
-            return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate.enclosure,
+            return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate,
                                       0.2 * limit_.seconds());
         });
         add([&] {

@@ -3,7 +3,7 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_POINT_JUDGEMENT_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/verifier/proof/detail/plain_campaign.hpp>
+#include <sivid/verifier/proof/detail/proved_campaign.hpp>
 
 #include <cstddef>
 #include <utility>
@@ -24,7 +24,7 @@ template <class I>
     }
     enclosure_options const fine{
         .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-6};
-    plain_campaign<I> campaign(problem, std::move(starts), fine);
+    proved_campaign<I> campaign(problem, std::move(starts), fine);
     auto const p = point_box(f.parameters);
     return campaign.judge(campaign.learn(p, false), p);
 }

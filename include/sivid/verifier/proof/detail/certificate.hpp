@@ -4,7 +4,7 @@
 
 #include <sivid/space/box_cover.hpp>
 #include <sivid/verifier/proof/detail/certificate_options.hpp>
-#include <sivid/verifier/proof/detail/plain_campaign.hpp>
+#include <sivid/verifier/proof/detail/proved_campaign.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ public:
     claim_checker(identification_problem const& problem, std::vector<box> starts,
                   certificate_options options)
         : prior_(problem.prior),
-          campaign_(problem, std::move(starts), options.enclosure),
+          campaign_(problem, std::move(starts), options),
           options_(std::move(options)) {}
 
     [[nodiscard]] std::size_t runs() const { return campaign_.runs(); }
@@ -68,7 +68,7 @@ private:
         std::size_t claim;
     };
     using group = std::vector<piece>;
-    using knowledge = typename plain_campaign<I>::knowledge;
+    using knowledge = typename proved_campaign<I>::knowledge;
 
     [[nodiscard]] bool is_inside(piece const& p) const {
         return (*claims_)[p.claim].what == box_claim::kind::inside;
@@ -201,7 +201,7 @@ private:
     }
 
     box prior_;
-    plain_campaign<I> campaign_;
+    proved_campaign<I> campaign_;
     certificate_options options_;
     std::vector<box_claim>* claims_ = nullptr;
     std::vector<std::size_t> left_, spent_; ///< pieces to prove, single runs spent, by claim

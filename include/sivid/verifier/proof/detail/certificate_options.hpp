@@ -5,24 +5,24 @@
 #include <sivid/enclosure/options.hpp>
 
 #include <cstddef>
-#include <functional>
 
 namespace sivid {
 
 /// How hard claims about boxes are tried.
-struct certificate_options {
-    enclosure_options enclosure{.order = 10,
-                                .tolerance = 1e-9,
-                                .relative_tolerance = 1e-3,
-                                .minimum_step = 1e-4,
-                                .maximum_steps = 4000,
-                                .widest = 1.0};
+struct certificate_options : enclosure_options {
+    certificate_options()
+        : enclosure_options{.order = 10,
+                            .tolerance = 1e-9,
+                            .relative_tolerance = 1e-3,
+                            .minimum_step = 1e-4,
+                            .maximum_steps = 4000,
+                            .widest = 1.0} {}
+
     double seconds = 10;
     /// Validated runs for one claim before it is left open.
     std::size_t runs_per_claim = 200;
     /// Regions wider than this share of the prior are split without a run.
     double widest_region = 1.0 / 16;
-    std::function<bool()> keep_going; ///< false ends the work
 };
 
 } // namespace sivid

@@ -34,7 +34,7 @@ class exclusion_check {
 public:
     exclusion_check(identification_problem const& problem, certificate_options options,
                     run_options how = {})
-        : problem_(&problem), options_(std::move(options)), audit_(problem, options_.enclosure) {
+        : problem_(&problem), options_(std::move(options)), audit_(problem, options_) {
         samples_.reserve(problem.experiments.size()); // the runs keep references
         for (auto const& e : problem.experiments) {
             flows_.push_back(std::make_unique<flow>(problem.model, problem.choice, e.inputs));
@@ -104,7 +104,7 @@ private:
     };
     using group = std::vector<piece>;
 
-    /// More groups of measurements than this are not tried (`cut_contraction` neither).
+    /// More groups of measurements than this are not tried (`lp_contractor` neither).
     static constexpr std::size_t most_groups = 8;
     /// So many open pieces are cut further without a run.
     static constexpr std::size_t most_leaves = 64;

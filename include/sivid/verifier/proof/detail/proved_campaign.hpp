@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_VERIFIER_PROOF_DETAIL_PLAIN_CAMPAIGN_HPP
-#define SIVID_VERIFIER_PROOF_DETAIL_PLAIN_CAMPAIGN_HPP
+#ifndef SIVID_VERIFIER_PROOF_DETAIL_PROVED_CAMPAIGN_HPP
+#define SIVID_VERIFIER_PROOF_DETAIL_PROVED_CAMPAIGN_HPP
 
 #include <sivid/paving/run/plain_run.hpp>
 #include <sivid/verifier/proof/detail/plain_start_rule.hpp>
@@ -18,12 +18,12 @@ namespace sivid {
 /// All experiments of a problem by plain runs: what they say of regions and of their parts.
 /// @tparam I  the interval type of the runs
 template <class I>
-class plain_campaign {
+class proved_campaign {
 public:
     /// @param starts  where existence is to be proved from, a box per experiment; may be empty (all
     /// starts of the experiment then)
-    plain_campaign(identification_problem const& problem, std::vector<box> starts,
-                   enclosure_options const& options)
+    proved_campaign(identification_problem const& problem, std::vector<box> starts,
+                    enclosure_options const& options)
         : problem_(&problem), starts_(std::move(starts)) {
         for (auto const& e : problem.experiments) {
             runs_.push_back(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Boxes of parameters against data with a planted truth: the truth is never excluded, and what is
 // called inside is simulated.
-#include <sivid/paving/judge/data_test.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
 
 #include "support/catch.hpp"
 #include "support/problems.hpp"
@@ -12,7 +12,7 @@
 using namespace sivid;
 using support::between;
 using support::draws;
-using knowledge = data_test::knowledge;
+using knowledge = feasibility_test::knowledge;
 
 namespace {
 
@@ -42,10 +42,10 @@ void sweep(std::uint64_t seed, int problems) {
         auto const model = d.below(support::planted_models);
         auto const planted = support::plant(d, model, how);
         auto const& prior = planted.problem.prior;
-        data_test_options options;
+        feasibility_test_options options;
         options.contract = d.below(4) != 0;
-        if (d.below(4) == 0) options.run.set = carried_set::doubleton;
-        data_test test(planted.problem, options);
+        if (d.below(4) == 0) options.set = carried_set::doubleton;
+        feasibility_test test(planted.problem, options);
         std::vector<box> starts;
         for (auto const& x0 : planted.starts) starts.push_back(point_box(x0));
         test.set_starts(starts);
@@ -100,16 +100,16 @@ TEST_CASE("the truth as a point is inside, a point that fails is outside") {
     draws d(352);
     for (std::size_t model = 0; model < support::planted_models; ++model) {
         auto const planted = support::plant(d, model, {.samples = 10, .noise = 0.02});
-        data_test test(planted.problem, {});
+        feasibility_test test(planted.problem, {});
         CHECK(test(point_box(planted.truth), nullptr).verdict == box_verdict::inside);
         CHECK(test.integrations() >= 1);
         auto broken = planted.problem;
         auto& bound = broken.experiments[0].measurements[4].bound;
         bound = support::around(mid(bound) + 1, 0.02);
-        data_test strict(broken, {});
+        feasibility_test strict(broken, {});
         CHECK(strict(point_box(planted.truth), nullptr).verdict == box_verdict::outside);
         broken.experiments[0].outliers = 1;
-        data_test tolerant(broken, {});
+        feasibility_test tolerant(broken, {});
         CHECK(tolerant(point_box(planted.truth), nullptr).verdict == box_verdict::inside);
     }
 }
@@ -138,9 +138,9 @@ TEST_CASE("measurements at a knot of a held input that feeds through") {
                       {2, 1, between(-0.1, 0.1)}};
     problem.experiments = {e};
     for (auto const set : {carried_set::taylor_model, carried_set::doubleton}) {
-        data_test_options options;
-        options.run.set = set;
-        data_test test(problem, options);
+        feasibility_test_options options;
+        options.set = set;
+        feasibility_test test(problem, options);
         CHECK(test(point_box({1.0}), nullptr).verdict == box_verdict::inside);
         CHECK(test(point_box({1.5}), nullptr).verdict == box_verdict::outside);
     }
@@ -165,9 +165,9 @@ TEST_CASE("an undefined output decides nothing, and nothing about the others") {
     e.outliers = 1;
     e.measurements = {{0.5, 0, between(0, 1)}, {2, 1, between(0.9, 1.1)}};
     problem.experiments = {e};
-    data_test test(problem, {});
+    feasibility_test test(problem, {});
     CHECK(test(point_box({1.0}), nullptr).verdict != box_verdict::outside);
     problem.experiments[0].measurements[1].bound = between(5, 6);
-    data_test strict(problem, {});
+    feasibility_test strict(problem, {});
     CHECK(strict(point_box({1.0}), nullptr).verdict != box_verdict::inside);
 }

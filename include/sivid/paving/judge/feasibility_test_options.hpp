@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_JUDGE_DATA_TEST_OPTIONS_HPP
-#define SIVID_PAVING_JUDGE_DATA_TEST_OPTIONS_HPP
+#ifndef SIVID_PAVING_JUDGE_FEASIBILITY_TEST_OPTIONS_HPP
+#define SIVID_PAVING_JUDGE_FEASIBILITY_TEST_OPTIONS_HPP
 
 #include <sivid/executor.hpp>
 #include <sivid/paving/run_options.hpp>
@@ -10,16 +10,12 @@
 
 namespace sivid {
 
-/// How boxes of parameters are tested against the data.
-struct data_test_options {
-    run_options run;
+/// How boxes of parameters are tested against the data, and how experiments are run for that.
+struct feasibility_test_options : run_options {
     /// How a guessed point is verified: a point without unknowns by a Taylor model of degree 0, its
     /// kinks rounded off where they stop it; otherwise by first-order sets with fine steps.
-    run_options witness{.enclosure = {.order = 14,
-                                      .tolerance = 1e-11,
-                                      .relative_tolerance = 1e-5,
-                                      .minimum_step = 1e-6},
-                        .set = carried_set::taylor_model};
+    run_options witness{
+        {.order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-5, .minimum_step = 1e-6}};
     std::size_t witness_steps = 20'000; ///< at most, besides those that knots and samples end
     /// Contract boxes by the dependence of the outputs on the parameters, and decide parts of a box
     /// by what was computed for the whole. Without it the test is the report's: enclosure against
@@ -37,9 +33,9 @@ struct data_test_options {
 /// The same with all runs asking before each step whether to go on; a run that is ended keeps the
 /// outputs it has, so that what follows from them is still proved.
 /// @param keep_going  for any thread
-[[nodiscard]] inline data_test_options limited(data_test_options test,
-                                               std::function<bool()> const& keep_going) {
-    test.run.enclosure.keep_going = test.witness.enclosure.keep_going = keep_going;
+[[nodiscard]] inline feasibility_test_options limited(feasibility_test_options test,
+                                                      std::function<bool()> const& keep_going) {
+    test.keep_going = test.witness.keep_going = keep_going;
     return test;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/response/linear_contraction.hpp>
+#include <sivid/paving/response/linear_contractor.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_CONTRACT_DETAIL_CUT_CONTRACTION_HPP
-#define SIVID_PAVING_CONTRACT_DETAIL_CUT_CONTRACTION_HPP
+#ifndef SIVID_PAVING_CONTRACT_DETAIL_LP_CONTRACTOR_HPP
+#define SIVID_PAVING_CONTRACT_DETAIL_LP_CONTRACTOR_HPP
 
 #include <sivid/paving/contract/detail/cut_program.hpp>
 #include <sivid/paving/contract/detail/misfit_block.hpp>
@@ -25,7 +25,7 @@ namespace sivid {
 ///   prove a cut each; one of the groups contains no outlier, so the weakest cut holds.
 /// @guarantee  removes no parameter that is feasible for some starts
 /// @cost  2 n (Q + 1) linear programs and certificates; nothing is integrated
-class cut_contraction {
+class lp_contractor {
     using traits = interval_traits<interval>;
 
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/proof/detail/plain_campaign.hpp>
+#include <sivid/verifier/proof/detail/proved_campaign.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
@@ -74,7 +74,7 @@ TEST_CASE("starts are found in long experiments, which cannot be followed from a
         auto const problem = swings({1.8, 2.2}, {-0.1, 0.1}, spoilt);
         auto const& run = problem.experiments[0];
         box const truth{interval(0.9996, 1.0004)};
-        plain_campaign<interval> seeking(problem, {}, {});
+        proved_campaign<interval> seeking(problem, {}, {});
         auto const known = seeking.learn(truth);
         CHECK(known.all[0].outputs.size() < samples);
         REQUIRE(seeking.judge(known, truth) == run_finding::explained);
@@ -109,7 +109,7 @@ TEST_CASE("starts are found in long experiments, which cannot be followed from a
 TEST_CASE("what no start in its box explains is not confirmed") {
     box const truth{interval(0.9996, 1.0004)};
     auto const judged = [](identification_problem const& problem, box const& region) {
-        plain_campaign<interval> seeking(problem, {}, {});
+        proved_campaign<interval> seeking(problem, {}, {});
         return seeking.judge(seeking.learn(region), region);
     };
     auto const problem = swings({1.8, 2.2}, {-0.1, 0.1});
@@ -128,9 +128,9 @@ TEST_CASE("what no start in its box explains is not confirmed") {
 TEST_CASE("the chosen start proves existence where all starts do not") {
     auto const problem = plain_problem::make(0, 0, interval(1.5, 2.5));
     box const right{interval(0.495, 0.505)}, wrong{interval(0.8, 0.81)};
-    plain_campaign<interval> without(problem, {}, {});
+    proved_campaign<interval> without(problem, {}, {});
     CHECK(without.judge(without.learn(right, false), right) == run_finding::open);
-    plain_campaign<interval> with(problem, {box{interval(2.0)}}, {});
+    proved_campaign<interval> with(problem, {box{interval(2.0)}}, {});
     CHECK(with.judge(with.learn(right), right) == run_finding::explained);
     CHECK(with.runs() == 2);
     auto const known = with.learn(wrong);
@@ -141,7 +141,7 @@ TEST_CASE("the chosen start proves existence where all starts do not") {
 TEST_CASE("starts are found where none are given, and none are where there are none") {
     auto const problem = plain_problem::make(0, 0, interval(1.5, 2.5));
     box const right{interval(0.495, 0.505)};
-    plain_campaign<interval> seeking(problem, {}, {});
+    proved_campaign<interval> seeking(problem, {}, {});
     CHECK(seeking.judge(seeking.learn(right), right) == run_finding::explained);
     CHECK(seeking.runs() == 3); // all starts, one, those near the rule
     // The bounds allow x(0) e^(-a t) to differ by 0.05 from 2 e^(-t / 2): a = 0.53 with 2.04, not
@@ -152,7 +152,7 @@ TEST_CASE("starts are found where none are given, and none are where there are n
     CHECK(seeking.judge(known, beyond) == run_finding::explained);
     CHECK(lower(known.guide[0][0]) > 2);
     auto const narrow = plain_problem::make(0, 0, interval(1.99, 2.0));
-    plain_campaign<interval> strict(narrow, {}, {});
+    proved_campaign<interval> strict(narrow, {}, {});
     CHECK(strict.judge(strict.learn(beyond), beyond) != run_finding::explained);
 }
 
@@ -160,10 +160,10 @@ TEST_CASE("every experiment counts") {
     auto problem = plain_problem::make();
     problem.experiments.push_back(plain_problem::make(3).experiments[0]);
     box const truth{interval(0.499, 0.501)};
-    plain_campaign<interval> both(problem, {}, {});
+    proved_campaign<interval> both(problem, {}, {});
     CHECK(both.judge(both.learn(truth), truth) == run_finding::refuted);
     problem.experiments[1].outliers = 3;
-    plain_campaign<interval> spared(problem, {}, {});
+    proved_campaign<interval> spared(problem, {}, {});
     auto const known = spared.learn(truth);
     CHECK(spared.judge(known, truth) == run_finding::explained);
     CHECK(spared.spread(known, truth, 0) > 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/approximate/fit/detail/campaign.hpp>
+#include <sivid/approximate/fit/detail/approximate_campaign.hpp>
 
 #include "support/catch.hpp"
 #include "support/hovercraft_campaign.hpp"
@@ -14,7 +14,7 @@ TEST_CASE("a campaign differentiates its residuals by all its variables") {
     options.share = 0.3;
     auto const problem = support::hovercraft_campaign(d, {}, options);
     std::vector<std::vector<double>> knots(5, {0, 0.1, 0.2, 5});
-    campaign c(problem, knots);
+    approximate_campaign c(problem, knots);
     c.release({2}, {true, false, true});
     CHECK(c.free_parameters() == std::vector<std::size_t>{0, 2});
     CHECK(c.local_sizes() == std::vector<Eigen::Index>(5, 3 + 4));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_APPROXIMATE_FIT_DETAIL_CAMPAIGN_HPP
-#define SIVID_APPROXIMATE_FIT_DETAIL_CAMPAIGN_HPP
+#ifndef SIVID_APPROXIMATE_FIT_DETAIL_APPROXIMATE_CAMPAIGN_HPP
+#define SIVID_APPROXIMATE_FIT_DETAIL_APPROXIMATE_CAMPAIGN_HPP
 
 #include <sivid/approximate/detail/residuals.hpp>
 #include <sivid/approximate/fit/detail/arrow_system.hpp>
@@ -26,14 +26,14 @@ namespace sivid {
 /// All experiments of a problem as one smooth function of their variables, in plain doubles.
 ///   Globals: the parameters of non-zero width that are not held. Locals of an experiment: its
 ///   uncertain start states, then the values of the disturbances d(t) at its knots, if any.
-class campaign {
+class approximate_campaign {
 public:
     using jacobian =
         Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> const>;
 
     /// @param knots  per experiment, of the disturbances; empty when there are none
-    explicit campaign(identification_problem const& problem,
-                      std::vector<std::vector<double>> knots = {})
+    explicit approximate_campaign(identification_problem const& problem,
+                                  std::vector<std::vector<double>> knots = {})
         : problem_(&problem) {
         std::shared_ptr<approximate_model const> shared;
         for (std::size_t e = 0; e < problem.experiments.size(); ++e) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_JUDGE_DATA_TEST_HPP
-#define SIVID_PAVING_JUDGE_DATA_TEST_HPP
+#ifndef SIVID_PAVING_JUDGE_FEASIBILITY_TEST_HPP
+#define SIVID_PAVING_JUDGE_FEASIBILITY_TEST_HPP
 
 #include <sivid/model/change/added_start.hpp>
 #include <sivid/model/change/detail/smoothed.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/judge/data_test_options.hpp>
 #include <sivid/paving/judge/detail/response_judgement.hpp>
+#include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/run/detail/lasting_radii.hpp>
 #include <sivid/paving/run/detail/run_pool.hpp>
@@ -31,7 +31,7 @@ namespace sivid {
 ///   given to `set_starts`, or one that follows the parameters (`explaining_starts`) where none of
 ///   them has to (`starts_follow_parameters`).
 /// The outlier rule is the consistent reading of the report's Algorithm 2.
-class data_test {
+class feasibility_test {
 public:
     /// `judge` and `learn` are for several threads at once.
     static constexpr bool concurrent = true;
@@ -46,7 +46,7 @@ public:
 
     /// @given  boxes that are asked about lie within the prior, and starts within those of their
     ///         experiments: states that rest there are numbers in the runs (`region_of_runs`)
-    data_test(identification_problem const& problem, data_test_options const& options)
+    feasibility_test(identification_problem const& problem, feasibility_test_options const& options)
         : problem_(&problem), options_(options) {
         problem.require_valid();
         follows_ = starts_follow_parameters(problem);
@@ -63,15 +63,15 @@ public:
                                                            : flows_.back());
         }
         auto const pool_of = [&](std::vector<std::shared_ptr<flow const>> const& flows) {
-            return std::make_unique<run_pool>(
-                [&problem, flows, records = records_.data(), run = options.run] {
-                    run_set runs;
-                    for (std::size_t e = 0; e < flows.size(); ++e) {
-                        runs.push_back(make_run(*flows[e], problem.experiments[e], records[e],
-                                                problem.prior, run));
-                    }
-                    return runs;
-                });
+            return std::make_unique<run_pool>([&problem, flows, records = records_.data(),
+                                               run = static_cast<run_options const&>(options)] {
+                run_set runs;
+                for (std::size_t e = 0; e < flows.size(); ++e) {
+                    runs.push_back(make_run(*flows[e], problem.experiments[e], records[e],
+                                            problem.prior, run));
+                }
+                return runs;
+            });
         };
         pool_ = pool_of(flows_);
         for (std::size_t e = 0; e < flows_.size(); ++e) {
@@ -79,7 +79,7 @@ public:
             if (!flows_[e]->uncertain()) continue;
             if (!recorded_pool_) recorded_pool_ = pool_of(recorded_);
             lasting_[e] = std::make_unique<lasting_radii>(*flows_[e], problem.experiments[e],
-                                                          records_[e], problem.prior, options.run);
+                                                          records_[e], problem.prior, options);
         }
     }
 
@@ -122,7 +122,7 @@ public:
     }
 
     /// Whether it was told to stop (`enclosure_options::keep_going` of its runs).
-    [[nodiscard]] bool cancelled() const { return options_.run.enclosure.cancelled(); }
+    [[nodiscard]] bool cancelled() const { return options_.cancelled(); }
 
     [[nodiscard]] std::size_t integrations() const {
         return pool_->integrations() + (recorded_pool_ ? recorded_pool_->integrations() : 0);
@@ -247,17 +247,17 @@ public:
     /// Where a kink stops or blurs a point, or leaves open whether it meets its measurements, it is
     /// rounded off (`smoothed`) by little against the narrowest measurement. A trajectory that is
     /// stiff, or chatters at a kink, would take a million steps of the shortest length: it ends
-    /// after `data_test_options::witness_steps` and some for each knot and measurement.
+    /// after `feasibility_test_options::witness_steps` and some for each knot and measurement.
     [[nodiscard]] std::shared_ptr<response const> run_finely(std::size_t e, box const& initial,
                                                              box const& parameters) {
         pool_->count(1);
         auto options = options_.witness;
-        auto& most = options.enclosure.maximum_steps;
+        auto& most = options.maximum_steps;
         most = std::min(most, options_.witness_steps + 4 * stops(e));
         auto const run = [&](flow const& f, carried_set set, double shortest = 1) {
             auto own = options;
             own.set = set;
-            own.enclosure.minimum_step *= shortest;
+            own.minimum_step *= shortest;
             return (*make_run(f, problem_->experiments[e], records_[e], initial, parameters, own))(
                 initial, parameters);
         };
@@ -381,7 +381,7 @@ private:
     }
 
     identification_problem const* problem_;
-    data_test_options options_;
+    feasibility_test_options options_;
     std::vector<std::shared_ptr<flow const>> flows_;
     std::vector<record> records_;
     std::vector<box> starts_;

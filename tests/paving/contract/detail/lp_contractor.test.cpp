@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/contract/detail/cut_contraction.hpp>
+#include <sivid/paving/contract/detail/lp_contractor.hpp>
 
 #include "support/catch.hpp"
 #include "support/polynomial_experiments.hpp"
@@ -23,7 +23,7 @@ TEST_CASE("contraction by cuts removes no feasible point, outliers and starts in
                                        q);
         auto const part = e.part(d);
         auto rest = part;
-        bool const left = cut_contraction()(e.known, rest);
+        bool const left = lp_contractor()(e.known, rest);
         refuted += left ? 0 : 1;
         contracted += left && relative_volume(rest, part).upper() < 0.9 ? 1 : 0;
         if (left) CHECK(subset(rest, part));
@@ -58,7 +58,7 @@ TEST_CASE("measurements that say little one by one cut together") {
     }
     response_list const known{std::make_shared<response const>(r)};
     auto rest = prior;
-    REQUIRE(cut_contraction()(known, rest));
+    REQUIRE(lp_contractor()(known, rest));
     for (auto const& side : rest) {
         CHECK(side.upper() < 0.1001);
         CHECK(side.lower() > -0.1001);
@@ -67,6 +67,6 @@ TEST_CASE("measurements that say little one by one cut together") {
     // With an outlier allowed either may be wrong: nothing is cut.
     r.allowed = 1;
     rest = prior;
-    REQUIRE(cut_contraction()({std::make_shared<response const>(r)}, rest));
+    REQUIRE(lp_contractor()({std::make_shared<response const>(r)}, rest));
     CHECK(width(rest) >= 2);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_RESPONSE_LINEAR_CONTRACTION_HPP
-#define SIVID_PAVING_RESPONSE_LINEAR_CONTRACTION_HPP
+#ifndef SIVID_PAVING_RESPONSE_LINEAR_CONTRACTOR_HPP
+#define SIVID_PAVING_RESPONSE_LINEAR_CONTRACTOR_HPP
 
 #include <sivid/paving/response/relaxed_intersection.hpp>
 #include <sivid/space/box.hpp>
