@@ -155,7 +155,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/diagnosis/candidate/detail/episode_fit.hpp",
          {"fit/fit.hpp", "fit/detail/thinned.hpp"}},
         {"sivid/diagnosis/hold_out/detail/holdout_judgement.hpp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/claim/detail/claim_review.hpp", {"fit/detail/campaign.hpp"}},
+        {"sivid/diagnosis/claim/detail/claim_review.hpp", {"fit/detail/approximate_campaign.hpp"}},
         {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/diagnose.ipp", {"place/detail/place_estimate.hpp"}},
