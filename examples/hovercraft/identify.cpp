@@ -113,7 +113,7 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
             std::cout << ", proved to be the fewest";
         } else {
             std::cout << " suffice, at least " << report::count_text(found.fewest->total.least)
-                      << " by proof";
+                      << " by proof (" << to_string(found.fewest->reason) << ")";
         }
         for (auto const& e : problem.experiments) {
             if (e.outliers > 0) std::cout << "; " << e.name << " " << e.outliers;
@@ -381,11 +381,13 @@ int run(identify_command const& c) {
         full = limit.seconds() < writing_a_box * rows;
         return !full;
     };
+    if (c.memory) options.search.memory = static_cast<std::size_t>(1e6 * *c.memory);
     std::optional<sivid::smallest_budget> fewest;
     if (c.fewest_outliers && !helps(c)) {
         progress.note(title + ": how many outliers are needed");
         sivid::outlier_search_options least;
         least.seconds = 0.5 * budget;
+        least.memory = options.search.memory;
         least.keep_going = wanted;
         fewest = sivid::smallest_outlier_budget(problem, least);
         for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
@@ -393,7 +395,6 @@ int run(identify_command const& c) {
         }
         options.search.seconds = std::max(0.0, options.search.seconds - fewest->seconds);
     }
-    if (c.memory) options.search.memory = static_cast<std::size_t>(1e6 * *c.memory);
     options.search.batches = c.batches; // whatever the threads, so that the result is the same
     if (helps(c)) return help(c, problem, options, digest);
     options.search.workers = console::threads_for(c.threads);

@@ -173,6 +173,7 @@
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/search/exclusion_proof.hpp>
 #include <sivid/paving/search/frontier.hpp>
+#include <sivid/paving/search/search_budget.hpp>
 #include <sivid/paving/search/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/static/flat_paving.hpp>

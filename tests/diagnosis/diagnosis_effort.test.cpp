@@ -11,7 +11,7 @@ TEST_CASE("a step gets its share of the time, and boxes that count all experimen
     auto const p = small_campaign::problem();
     auto const search = effort.search(p, {20, 0.25});
     CHECK(search.seconds == 25);
-    CHECK(search.work == 60); // two experiments and a bound for each box
+    CHECK(search.boxes == 60); // two experiments and a bound for each box
     inflation_bound found;
     found.boxes = 20;
     found.integrations = 40;

@@ -54,6 +54,21 @@ void check_claims(support::planted_problem const& planted, inflation_bound const
 
 } // namespace
 
+TEST_CASE("a search for the inflation that may hold little ends early with what is proved") {
+    draws d(409);
+    auto const planted =
+        support::plant(d, 0, {.experiments = 2, .samples = 12, .outliers = 1, .spread = 0.1});
+    auto options = brief(600);
+    options.boxes = 400;
+    auto const whole = bound_inflation(planted.problem, nullptr, options);
+    options.memory = 1;
+    auto const little = bound_inflation(planted.problem, nullptr, options);
+    CHECK(little.boxes < whole.boxes);
+    check_claims(planted, little, d);
+    options.memory = std::size_t{1} << 30;
+    CHECK(bound_inflation(planted.problem, nullptr, options).value.lower() == whole.value.lower());
+}
+
 TEST_CASE("the inflation of planted problems is enclosed") {
     draws d(401);
     int tight = 0;

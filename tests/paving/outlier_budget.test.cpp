@@ -199,10 +199,33 @@ TEST_CASE("a search that is stopped leaves proved bounds") {
     CHECK_THROWS_AS(smallest_outlier_budget(nothing), std::invalid_argument);
 }
 
+TEST_CASE("a search for outliers says why it ended before its count was exact") {
+    draws d(764);
+    auto const problem = decays(d, 2, 0.01, 0.5);
+    auto const total = sweep(problem.experiments, 0.25, 1);
+    auto const ended = [&](auto const& limit) {
+        outlier_search_options options;
+        options.seconds = 600;
+        limit(options);
+        auto const found = smallest_outlier_budget(problem, options);
+        CHECK(found.total.least <= total);
+        CHECK(found.total.most >= total);
+        CHECK(found.total.exact() == (found.reason == stop_reason::decided));
+        return found.reason;
+    };
+    CHECK(ended([](auto&) {}) == stop_reason::decided);
+    CHECK(ended([](auto& o) { o.boxes = 3; }) == stop_reason::box_budget);
+    CHECK(ended([](auto& o) { o.memory = 1; }) == stop_reason::memory_budget);
+    CHECK(ended([](auto& o) { o.seconds = 0; }) == stop_reason::time_budget);
+    CHECK(ended([](auto& o) { o.keep_going = [] { return false; }; }) == stop_reason::cancelled);
+}
+
 TEST_CASE("a search for outliers that is told to stop says what is proved") {
     draws d(883);
     auto const planted = support::plant(d, 0, {.experiments = 2, .samples = 12, .outliers = 2});
-    auto const whole = smallest_outlier_budget(planted.problem, {.seconds = 600});
+    outlier_search_options patient;
+    patient.seconds = 600;
+    auto const whole = smallest_outlier_budget(planted.problem, patient);
     REQUIRE(whole.total.exact());
     for (std::size_t const most : {0u, 1u, 20u, 200u, 2000u, 20000u}) {
         std::atomic<std::size_t> asked = 0;

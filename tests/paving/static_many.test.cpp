@@ -245,6 +245,18 @@ TEST_CASE("where an output is not defined it is violated, also times nothing") {
     }
 }
 
+TEST_CASE("a static inversion that may hold little ends early and loses nothing") {
+    auto const problem = polynomial_problem<3>(100, 3);
+    for (std::size_t const memory : {1U, 100'000U}) {
+        static_inversion_options o;
+        o.memory = memory;
+        o.accuracy = 1e-4;
+        auto const found = invert_static(problem, o);
+        CHECK(found.reason == stop_reason::memory_budget);
+        CHECK(within(found, std::vector<double>(3, 1.0)));
+    }
+}
+
 TEST_CASE("degenerate problems of many measurements") {
     auto const entire = interval_traits<interval>::entire();
     auto const problem = polynomial_problem<3>(100, 3);

@@ -78,7 +78,7 @@ public:
         inflation_options result;
         result.test = test_;
         result.seconds = seconds_of(e);
-        result.work = e.boxes * (p.experiments.size() + 1);
+        result.boxes = e.boxes * (p.experiments.size() + 1);
         return result;
     }
     /// A refutation by interval observers that spends no more.

@@ -24,12 +24,13 @@ namespace sivid {
 struct inflation_options {
     double relative_width = 0.05; ///< stop when upper - lower is at most this share of upper
     double seconds = 3;
-    /// Stop after so many integrations of an experiment over a box and boxes bounded, together:
-    /// unlike the time, the same on every machine. A step that was begun is ended.
-    std::size_t work = std::numeric_limits<std::size_t>::max();
+    /// Boxes bounded and integrations of an experiment over a box, together: unlike the time, the
+    /// same on every machine. A step that was begun is ended.
+    std::size_t boxes = std::numeric_limits<std::size_t>::max();
     /// So many in all where it is open then whether the inflation is above 1, or where the bounds
     /// have come near each other but are more than a tenth apart.
-    std::size_t further_work = 0;
+    std::size_t further_boxes = 0;
+    std::size_t memory = std::numeric_limits<std::size_t>::max(); ///< bytes, see `used_up`
     bool only_verdict = false;        ///< stop as soon as lower > 1 or upper <= 1
     std::function<bool()> keep_going; ///< false stops the search with what is proved until then
     feasibility_test_options test;

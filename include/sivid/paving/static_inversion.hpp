@@ -4,6 +4,7 @@
 
 #include <sivid/number/guard.hpp>
 #include <sivid/number/pack_traits.hpp>
+#include <sivid/paving/search/search_budget.hpp>
 #include <sivid/paving/static/detail/static_survey.hpp>
 #include <sivid/paving/static/flat_paving.hpp>
 #include <sivid/paving/static/static_judge.hpp>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <utility>
@@ -29,6 +31,7 @@ struct static_inversion_options {
     double uncertain = 0;
     double seconds = 60;
     std::size_t boxes = 100'000'000;
+    std::size_t memory = std::numeric_limits<std::size_t>::max(); ///< bytes, see `used_up`
     /// Only the hull of what is feasible is sought: boxes are split while they reach further, by
     /// `accuracy` of the prior's side, than the hull of points that are proved feasible. These
     /// points are `inside`, as boxes without width; what is `open` is not told apart any more.
@@ -67,10 +70,8 @@ public:
         while (!blocks_.empty() || !boxes_.empty()) {
             if (options_.keep_going && !options_.keep_going()) {
                 stop(stop_reason::cancelled);
-            } else if (clock.spent() > options_.seconds) {
-                stop(stop_reason::time_budget);
-            } else if (result_.tested >= options_.boxes) {
-                stop(stop_reason::box_budget);
+            } else if (auto const why = used_up(options_, clock.spent(), result_.tested, bytes())) {
+                stop(*why);
             } else if (!boxes_.empty() &&
                        (blocks_.empty() || boxes_.begin()->first >= blocks_.begin()->first.first)) {
                 survey_one();
@@ -85,6 +86,17 @@ public:
 
 private:
     using block = static_block;
+
+    /// Bytes of what waits and of the result; a list of measurements counts for each box that has
+    /// it.
+    [[nodiscard]] std::size_t bytes() const {
+        return alone_bytes_ + block_count_ * block::bytes(prior_.size()) + result_.inside.bytes() +
+               result_.open.bytes();
+    }
+    [[nodiscard]] static std::size_t bytes_of(static_box const& b) {
+        return sizeof b + b.set.size() * sizeof(interval) +
+               b.open->size() * sizeof(static_samples::index);
+    }
 
     void prepare() {
         for (auto const& side : prior_) {
@@ -108,6 +120,7 @@ private:
         if (!list.empty() && !list.back()->full()) return *list.back();
         if (spare_.empty()) {
             list.push_back(std::make_unique<block>(prior_.size()));
+            ++block_count_;
         } else {
             list.push_back(std::move(spare_.back()));
             spare_.pop_back();
@@ -121,6 +134,7 @@ private:
     void wait(static_box b, bool alone) {
         auto const volume = approximate_volume(b.set);
         if (alone || options_.only_hulls || b.open->size() > block::most_open) {
+            alone_bytes_ += bytes_of(b);
             boxes_[size_class(volume)].push_back(std::move(b));
             return;
         }
@@ -172,6 +186,7 @@ private:
     void survey_one() {
         auto& list = boxes_.begin()->second;
         auto b = std::move(list.front());
+        alone_bytes_ -= bytes_of(b);
         list.pop_front();
         if (list.empty()) boxes_.erase(boxes_.begin());
         if (options_.only_hulls && known_.size() > 0 && subset(b.set, known_)) {
@@ -372,6 +387,7 @@ private:
     std::size_t families_ = 0;
     box known_; ///< hull of what is proved inside, once there is something
     std::vector<std::unique_ptr<block>> spare_;
+    std::size_t block_count_ = 0, alone_bytes_ = 0; ///< of all blocks, of boxes that wait alone
     std::vector<double> least_, scale_; ///< least width to split, 1 / width of the prior
     std::vector<char> thick_;
     double uncertain_ = 0, allowed_ = 0;

@@ -25,7 +25,7 @@ struct verified_inflation {
 /// How the inflation of a candidate is bounded.
 struct gap_options {
     step_effort bound{150, 0.3};     ///< for both bounds ...
-    std::size_t further_boxes = 250; ///< ... see `inflation_options::further_work`
+    std::size_t further_boxes = 250; ///< ... see `inflation_options::further_boxes`
     step_effort no_gap{4, 0.02};     ///< where there is none: for the lower bound
     double relative_width = 0.03;    ///< of the bounds that are wanted
     /// For interval observers; twice as much where starts are wide.

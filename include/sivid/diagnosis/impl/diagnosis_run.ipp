@@ -49,8 +49,8 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         // What the answer leaves open is worth more than what the model without it does.
         bool const before = answered && candidate.figures.effects.empty();
         search.seconds = (before ? 0.15 : 0.8) * seconds;
-        search.work = (before ? boxes / 8 : boxes / 2) *
-                      (run.base.experiments.size() + judged.experiments.size() + 1);
+        search.boxes = (before ? boxes / 8 : boxes / 2) *
+                       (run.base.experiments.size() + judged.experiments.size() + 1);
         search.test = limited(test, [&test, clock, end = share * seconds] {
             return clock.spent() < end && !test.cancelled();
         });

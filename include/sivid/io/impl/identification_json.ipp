@@ -100,7 +100,8 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         json.key("alone").begin_object();
         for (std::size_t s = 0; s < problem.experiments.size(); ++s)
             write(problem.experiments[s].name, found.fewest->alone[s]);
-        json.end_object().end_object();
+        json.end_object();
+        json.members("reason", to_string(found.fewest->reason)).end_object();
     }
     json.list("forced", found.forced, [&](auto const& f) {
         auto const samples = sorted(problem.experiments[f.experiment].measurements);

@@ -84,13 +84,15 @@ private:
     }
     /// Asked between steps: a step that work cut short would have worked in vain, and where it was
     /// cut would depend on the threads.
-    [[nodiscard]] bool within_limits() const { return work() < most_work_ && within_time(); }
+    [[nodiscard]] bool within_limits() const {
+        return work() < most_work_ && search_.bytes() <= options_->memory && within_time();
+    }
     [[nodiscard]] bool finished() {
         double const lower = search_.lower(); // meaningless within a step
-        most_work_ = options_->work;
+        most_work_ = options_->boxes;
         bool const open = upper_ > 1 && !(lower > 1);
         bool const near = lower > 0.6 * upper_ && lower < 0.9 * upper_;
-        if (open || near) most_work_ = std::max(most_work_, options_->further_work);
+        if (open || near) most_work_ = std::max(most_work_, options_->further_boxes);
         if (options_->only_verdict && (lower > 1 || upper_ <= 1)) return true;
         return lower >= (1 - options_->relative_width) * upper_ || !within_limits();
     }
@@ -166,7 +168,7 @@ private:
     approximate_fitter fit_;
     double upper_ = detail::infinity;
     std::size_t descents_ = 0;
-    std::size_t most_work_ = std::max(options_->work, options_->further_work);
+    std::size_t most_work_ = std::max(options_->boxes, options_->further_boxes);
     std::optional<inflation_relaxation> promise_;
     std::optional<verified_witness> witness_;
 };

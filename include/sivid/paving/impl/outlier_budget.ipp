@@ -138,6 +138,7 @@ inline proved_count least_violations(identification_problem const& problem, few_
     });
     spent.boxes += search.boxes();
     spent.integrations += search.integrations();
+    spent.reason = bound < few.total() ? search.reason() : stop_reason::decided;
     return {std::min(bound, few.total()), few.total()};
 }
 
@@ -178,6 +179,9 @@ SIVID_DECL smallest_budget smallest_outlier_budget(identification_problem const&
     }
     share.seconds = std::max(0.0, options.seconds - limit.spent());
     result.total = paving_detail::least_violations(problem, few, least, share, result);
+    // What is asked there knows the time, too.
+    if (result.reason == stop_reason::cancelled && (!asked.keep_going || asked.keep_going()))
+        result.reason = stop_reason::time_budget;
     if (count == 1) result.alone = {result.total};
     result.budgets = few.budgets();
     result.witness = few.witness();

@@ -9,6 +9,7 @@
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -65,6 +66,8 @@ public:
 
     [[nodiscard]] std::size_t integrations() const { return test_.integrations(); }
     [[nodiscard]] std::size_t at_once() const { return test_.at_once(); }
+    /// Bytes of the responses that it found and that somebody still keeps.
+    [[nodiscard]] std::size_t bytes() const { return *held_; }
 
     /// A part of the prior of which nothing is known but what `b` says beside.
     template <std::derived_from<explored_box> Box>
@@ -124,7 +127,7 @@ public:
             if (sets.empty()) return;
             auto answers = test_.run(s, everything_.experiments[s].initial, sets);
             for (std::size_t k = 0; k < whose.size(); ++k) {
-                whose[k]->known[s] = std::move(answers[k]);
+                whose[k]->known[s] = counted(std::move(answers[k]));
             }
         });
         if (stopped) return;
@@ -134,9 +137,20 @@ public:
 private:
     static constexpr double smallest_share = 1e-9; ///< of the prior's side
 
+    /// The same response, counted as long as somebody keeps it.
+    [[nodiscard]] std::shared_ptr<response const> counted(std::shared_ptr<response const> r) const {
+        if (!r) return r;
+        auto const* const plain = r.get();
+        auto const bytes = r->bytes();
+        *held_ += bytes;
+        return {plain, [r = std::move(r), bytes, held = held_](auto const*) { *held -= bytes; }};
+    }
+
     identification_problem everything_;
     feasibility_test test_;
     executor workers_;
+    std::shared_ptr<std::atomic<std::size_t>> held_ =
+        std::make_shared<std::atomic<std::size_t>>(std::size_t{0});
 };
 
 } // namespace sivid

@@ -2,6 +2,8 @@
 #ifndef SIVID_PAVING_OUTLIERS_FEWEST_OUTLIERS_HPP
 #define SIVID_PAVING_OUTLIERS_FEWEST_OUTLIERS_HPP
 
+#include <sivid/paving/verdict.hpp>
+
 #include <cstddef>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct proved_count {
 struct fewest_outliers {
     proved_count total;              ///< all experiments together
     std::vector<proved_count> alone; ///< by experiment, each with the parameter best for it
+    stop_reason reason = stop_reason::decided; ///< why `total` is not exact; decided where it is
 };
 
 } // namespace sivid

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 
 namespace sivid {
 
@@ -13,6 +14,7 @@ struct outlier_search_options {
     feasibility_test_options test{};
     double seconds = 10;
     std::size_t boxes = 20'000;
+    std::size_t memory = std::numeric_limits<std::size_t>::max(); ///< bytes, see `used_up`
     /// Asked by any thread; false ends the search with what is proved until then. It stays false.
     std::function<bool()> keep_going = nullptr;
 };

@@ -44,6 +44,11 @@ public:
 
     [[nodiscard]] std::size_t sides() const { return sides_; }
     [[nodiscard]] std::size_t size() const { return count_; }
+    /// Memory that they take.
+    [[nodiscard]] std::size_t bytes() const {
+        return chunks_.size() *
+               (sizeof(box_chunk) + 2 * sides_ * box_chunk::capacity * sizeof(double));
+    }
     [[nodiscard]] double lower(std::size_t i, std::size_t side) const {
         return chunks_[i / box_chunk::capacity].lower(side)[i % box_chunk::capacity];
     }

@@ -117,10 +117,10 @@ inline void prove_gap(verified_inflation& known, screened const& s, diagnosis_ef
     if (!explained) {
         auto enough = options.bound;
         enough.boxes = std::max(enough.boxes, options.further_boxes);
-        search.further_work = effort.search(s.problem, enough).work;
+        search.further_boxes = effort.search(s.problem, enough).boxes;
         auto brief = search;
         brief.seconds *= 0.6;
-        brief.further_work = 0;
+        brief.further_boxes = 0;
         std::size_t spent = 0;
         double const fewer = refuted_by_few(s, options.hardest, brief, spent);
         auto const upper = known.range.upper();

@@ -288,7 +288,8 @@ started_near(identification_problem posed, std::size_t fitted,
     feasibility_test test(posed, options.test);
     inversion_options search{.accuracy_of_hull = true, .hull_gain = 0.02, .keep_outside = false};
     search.seconds = seconds;
-    search.boxes = options.work;
+    search.boxes = options.boxes;
+    search.memory = options.memory;
     search.keep_going = [&options] { return !options.test.cancelled(); };
     auto const paving = invert(test, start, search).paving;
     return paving.has_outer() ? intersect(paving.outer_hull(), start) : start;
@@ -320,7 +321,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         auto brief = options;
         brief.only_verdict = false;
         brief.seconds = 0.3 * options.seconds;
-        brief.work = options.work / 3;
+        brief.boxes = options.boxes / 3;
         auto const found = bound_inflation(there, nullptr, brief);
         result.at_witness = found.value;
         result.boxes += found.boxes;
@@ -353,7 +354,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         paving_detail::holdout_range search(
             paving_detail::started_near(posed, fit.experiments.size(), likely_starts, share),
             fit.experiments.size(), fitted.value.upper(), start, good, last, timely);
-        search.narrow(options.work, [&] { return clock.spent() < end && go_on(); });
+        search.narrow(options.boxes, [&] { return clock.spent() < end && go_on(); });
         auto const found = search.range();
         result.boxes += search.tested();
         result.integrations += search.integrations();

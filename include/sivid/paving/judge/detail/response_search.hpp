@@ -54,6 +54,10 @@ public:
     [[nodiscard]] std::vector<node> const& stuck() const { return stuck_; }
     [[nodiscard]] std::size_t tested() const { return tested_; }
     [[nodiscard]] std::size_t integrations() const { return explorer_.integrations(); }
+    /// Bytes of boxes and of what is known of them.
+    [[nodiscard]] std::size_t bytes() const {
+        return explorer_.bytes() + (waiting_.size() + stuck_.size()) * sizeof(node);
+    }
 
     /// The box that comes first; null when none is of interest.
     [[nodiscard]] node const* next() const {

@@ -7,6 +7,7 @@
 #include <sivid/paving/judge/detail/response_search.hpp>
 #include <sivid/paving/outliers/outlier_search_options.hpp>
 #include <sivid/paving/response/local_response.hpp>
+#include <sivid/paving/search/search_budget.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>
 
@@ -122,6 +123,8 @@ public:
         }
         return least;
     }
+    /// Why the search ended where it did not decide.
+    [[nodiscard]] stop_reason reason() const { return reason_; }
     [[nodiscard]] std::size_t boxes() const { return search_.tested(); }
     [[nodiscard]] std::size_t integrations() const { return search_.integrations(); }
 
@@ -132,12 +135,18 @@ public:
     std::size_t operator()(std::size_t goal, Promising&& promising) {
         auto& policy = search_.policy();
         policy.goal = goal;
-        work_limit const limit(options_.seconds);
+        stopwatch const clock;
         std::function<bool()> const go_on = [&] {
-            return !policy.cancelled() && boxes() < options_.boxes && limit();
+            return !policy.cancelled() &&
+                   !used_up(options_, clock.spent(), boxes(), search_.bytes());
         };
         while (auto const* next = search_.next()) {
-            if (bound() >= policy.goal || !go_on()) break;
+            if (bound() >= policy.goal) break;
+            if (!go_on()) {
+                auto const over = used_up(options_, clock.spent(), boxes(), search_.bytes());
+                reason_ = over.value_or(stop_reason::cancelled);
+                break;
+            }
             if (!next->is_blind() && hopeful(*next) < policy.goal) {
                 policy.goal = std::min(policy.goal, promising(mid(next->set)));
                 if (policy.drops(*next)) continue;
@@ -173,6 +182,7 @@ private:
 
     outlier_search_options options_;
     response_search<outlier_policy> search_;
+    stop_reason reason_ = stop_reason::accuracy_reached; // boxes that cannot be split are left
 };
 
 } // namespace sivid

@@ -8,6 +8,7 @@
 #include <sivid/paving/search/detail/lesson.hpp>
 #include <sivid/paving/search/detail/split_rule.hpp>
 #include <sivid/paving/search/frontier.hpp>
+#include <sivid/paving/search/search_budget.hpp>
 #include <sivid/paving/search/search_state.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/subpaving.hpp>
@@ -73,7 +74,6 @@ public:
     [[nodiscard]] bool must_stop() {
         double const inner = paving_.inner_volume().upper();
         double const outer = paving_.outer_volume().upper() + waiting_.volume();
-        std::optional<stop_reason> stop;
         // Asked first: who told the test to stop says so after it, too.
         bool const cut = cut_short();
         bool const cancelled =
@@ -81,15 +81,9 @@ public:
              !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) ||
             (options_.keep_going && !options_.keep_going());
         double const now = seconds();
-        if (now > options_.seconds || (!cancelled && cut)) {
-            stop = stop_reason::time_budget;
-        } else if (tested_ >= options_.boxes) {
-            stop = stop_reason::box_budget;
-        } else if (bytes() > options_.memory) {
-            stop = stop_reason::memory_budget;
-        } else if (cancelled) {
-            stop = stop_reason::cancelled;
-        }
+        auto stop = used_up(options_, now, tested_, bytes());
+        if (!stop && cancelled) stop = stop_reason::cancelled;
+        if (!stop && cut) stop = stop_reason::time_budget;
         if (options_.checkpoint && (stop || checkpoint_due())) write_checkpoint();
         if (!stop && hull_rests()) stop = stop_reason::hulls_rest;
         if (!stop && inner > 0 && inner >= options_.sufficient_ratio * outer &&

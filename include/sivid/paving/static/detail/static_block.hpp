@@ -76,6 +76,11 @@ struct static_block {
     std::vector<std::uint32_t> missed; ///< by box: measurements that are certainly violated
     std::size_t count = 0;
 
+    [[nodiscard]] static std::size_t bytes(std::size_t sides) {
+        return sizeof(static_block) +
+               box_chunk::capacity *
+                   (2 * sides * sizeof(double) + sizeof(std::uint64_t) + sizeof(std::uint32_t));
+    }
     [[nodiscard]] bool full() const { return count == box_chunk::capacity; }
     void copy(static_block const& from, std::size_t i, std::size_t to) {
         boxes.copy(from.boxes, i, to);
