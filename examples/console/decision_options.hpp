@@ -33,18 +33,16 @@ namespace detail {
 
 /// What `predict`, `verify` and `control` are told of a control law.
 inline void add_law(CLI::App& s, decision d, decision_command& c) {
-    auto* const law =
-        s.add_option("--law", c.law,
-                     "what commands inputs, such as \"W = clamp(K * (2 - u), 0, 250)\"; several "
-                     "inputs are parted by ;");
+    auto* const law = s.add_option("--law", c.law,
+                                   "what commands inputs, such as \"W = clamp(K * (2 - u), 0, "
+                                   "250)\"; separate several inputs by ;");
     auto* const gain = s.add_option("--gain", c.gain, "of the law: K=3, or a range, K=0:50");
     s.add_option("--sensor", c.sensor, "error bounds of measured(...) in the law, such as u=0.02");
-    s.add_option(
-         "--sampled", c.sampled,
-         "the law is computed from samples at most so far apart [s], and held; not given: it "
-         "acts at every instant")
+    s.add_option("--sampled", c.sampled,
+                 "longest time between samples of the law, which holds its value between them [s]; "
+                 "not given: it acts at every instant")
         ->check(number_between(0.0, 1e9));
-    s.add_option("--delay", c.delay, "samples act at most so long after they were taken [s]")
+    s.add_option("--delay", c.delay, "longest time from a sample to its effect on the input [s]")
         ->check(number_between(0.0, 1e9));
     s.add_option(
         "--slew", c.slew,

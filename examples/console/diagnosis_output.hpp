@@ -77,7 +77,7 @@ inline void print_constants(sivid::diagnosis const& d) {
         d.answer == sivid::answer_kind::effects || d.answer == sivid::answer_kind::none;
     std::cout << (d.constants_verified ? "  verified to explain the data:"
                   : answered           ? "  best fit (not proved):"
-                                       : "  closest by now (not proved to be):");
+                                       : "  closest so far (not proved):");
     for (auto const& c : d.constants) std::cout << " " << value_words(c);
     std::cout << "\n";
 }

@@ -345,7 +345,7 @@ int run(identify_command const& c) {
                           c.how.method);
     if (!c.picture.empty())
         static_cast<void>(sivid::index_of(model.about.channels, c.picture, "channel"));
-    if (c.online && c.verdict_only) throw bad_request("--online goes not with --verdict-only");
+    if (c.online && c.verdict_only) throw bad_request("--online does not go with --verdict-only");
     if (c.online && (c.checkpoint || c.resume))
         throw bad_request("--online goes with neither --checkpoint nor --resume");
     if (c.online && c.fewest_outliers)

@@ -198,12 +198,13 @@ private:
         s->add_option("--budget", c.budget, "seconds, from when the data are read")
             ->check(console::number_between(0.0, 1e9))
             ->capture_default_str();
-        s->add_option("--boxes", c.boxes, "test at most so many boxes")
+        s->add_option("--boxes", c.boxes, "number of boxes to test, at most")
             ->check(console::number_between(0.0, 1e15)); // below 0 it would become very many
-        s->add_option("--memory", c.memory, "at most so many megabytes of boxes and knowledge")
+        s->add_option("--memory", c.memory,
+                      "memory for boxes and what is known about them [MB], at most")
             ->check(console::number_between(0.0, 1e9));
         s->add_option("--checkpoint", c.checkpoint,
-                      "save the search in OUT/checkpoint.txt every so many seconds")
+                      "seconds from one save of the search in OUT/checkpoint.txt to the next")
             ->check(console::number_between(0.0, 1e9));
         s->add_flag("--resume", c.resume,
                     "go on from OUT/checkpoint.txt, after a kill or with larger budgets; keeps "
@@ -211,9 +212,10 @@ private:
         s->add_option("--threads", c.threads, "threads (0: all); the result does not depend on it")
             ->check(CLI::Range(0, 1024))
             ->capture_default_str();
-        s->add_option("--batches", c.batches,
-                      "sets of boxes that are learnt about at a time: the more, the more ranks or "
-                      "threads have work. The result depends on it, and not on these")
+        s->add_option(
+             "--batches", c.batches,
+             "sets of boxes that are enclosed at a time: more of them give work to more ranks or "
+             "threads. The result depends on this number, not on ranks and threads")
             ->check(CLI::Range(1, 65536))
             ->capture_default_str();
         s->add_option("--outliers", outliers_,
@@ -231,7 +233,7 @@ private:
         s->add_flag("--online", c.online,
                     "feed the measurements in the order of time, and print what each update took");
         s->add_flag("--identifiability", c.identifiability,
-                    "say, too, what such data can tell about the parameters at all");
+                    "also say which parameters such data can tell at all");
         s->add_flag("--quiet", c.quiet, "no progress");
         add_variants(*s, shared_);
         s->callback([this] {
@@ -275,7 +277,8 @@ private:
         s->add_option("result", c.result, "folder with result.json and boxes.csv")->required();
         s->add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
         s->add_flag("--all", c.all, "every box instead of a sample");
-        s->add_option("--sample", c.sample, "so many inside and so many excluded boxes")
+        s->add_option("--sample", c.sample,
+                      "number of inside boxes and of excluded boxes in the sample")
             ->capture_default_str();
         s->add_option("--seed", c.seed, "of the sample")->capture_default_str();
         add_method(*s, c.how, "first-order sets of the check");
@@ -366,7 +369,7 @@ private:
             ->check(console::number_between(0.0, 1e9));
         s->add_option("--with-options", fleet_options_,
                       "further options of the command, in one text: \"--accuracy 0.01\"");
-        s->add_flag("--again", c.again, "do what is finished, too");
+        s->add_flag("--again", c.again, "repeat what is finished, too");
         s->add_flag("--quiet", c.quiet, "no progress");
         s->callback([this] {
             action_ = [this] {
@@ -470,8 +473,9 @@ private:
                       "tubes carry: first-order (the default), taylor-model (the default of "
                       "ranges)");
         s->add_option("--rate", c.rate, "rows of the CSV a second")->capture_default_str();
-        s->add_option("--input-rate", c.input_rate,
-                      "sample the inputs so often, as `generate` does; else their exact shapes")
+        s->add_option(
+             "--input-rate", c.input_rate,
+             "samples of the inputs a second, as in `generate`; not given: their exact shapes")
             ->check(console::number_between(1e-3, 1e5));
         s->add_flag("--validated", c.validated, "the proven tube beside it");
         add_method(*s, c.how, "the proven tubes");

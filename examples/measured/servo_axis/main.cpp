@@ -59,7 +59,8 @@ int diagnose(int argc, char** argv) {
     CLI::App app{"What the linear model of a real servo axis (EMPS) leaves out",
                  "servo_axis diagnose"};
     common_options const common(app, c);
-    app.add_option("--holdout", c.holdout_file, "a record that chooses nothing")
+    app.add_option("--holdout", c.holdout_file,
+                   "a record that is held out: nothing is fitted to it")
         ->capture_default_str();
     app.add_option("--every-sample", c.every_sample, "compare every so many samples of a window")
         ->check(CLI::Range(1, 1000))

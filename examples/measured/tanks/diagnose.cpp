@@ -217,7 +217,7 @@ int run(diagnose_command const& c) {
     std::optional<validity> valid;
     if (left() > 0 && !console::interrupted() && !run.result.interrupted &&
         run.result.gap != sivid::gap_verdict::none) {
-        progress.note("looking until when the model as it is holds");
+        progress.note("finding the time until which the model holds");
         valid = validity_of(problem, std::min(left(), 0.08 * c.budget));
     }
     std::vector<chain_link> chain;

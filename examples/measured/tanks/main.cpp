@@ -23,7 +23,8 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--file", c.file,
                    "the record: a table with t_s, pump_voltage_V and level_lower_tank_V")
         ->capture_default_str();
-    app.add_option("--holdout", c.holdout_file, "a record that chooses nothing")
+    app.add_option("--holdout", c.holdout_file,
+                   "a record that is held out: nothing is fitted to it")
         ->capture_default_str();
     app.add_option("--bound", bound, "of the level [V]")->capture_default_str();
     app.add_option("--lower-start", lower_start,

@@ -35,7 +35,7 @@ public:
             one();
         } while (words_.take(";") && !words_.at_end());
         if (!words_.at_end())
-            words_.fail("nothing can follow here", "part the commands of several inputs by ;");
+            words_.fail("nothing can follow here", "separate the commands of several inputs by ;");
     }
 
 private:

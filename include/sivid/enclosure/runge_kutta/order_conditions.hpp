@@ -100,7 +100,7 @@ template <class I = interval>
 inline void require_order(tableau const& method) {
     for (auto const& r : order_residuals<interval>(method, method.order)) {
         if (contains(r, 0.0)) continue;
-        throw std::invalid_argument("tableau '" + method.name + "' has not the order " +
+        throw std::invalid_argument("tableau '" + method.name + "' does not have the order " +
                                     std::to_string(method.order) + " that it states");
     }
 }

@@ -14,8 +14,9 @@ namespace sivid {
 
 /// How much of a stored identification is proved anew.
 struct identification_check_options {
-    std::size_t sample = 24; ///< so many inside and so many excluded boxes, or parts of them
-    bool all = false;        ///< every box instead
+    std::size_t sample =
+        24; ///< number of inside boxes and of excluded boxes in the sample, or parts of them
+    bool all = false; ///< every box instead
     std::uint64_t seed = 1;
     double seconds = 20; ///< for everything; what is not proved by then is not decided
     /// Share of the prior's sides next to a box that is not excluded of which the check may say
