@@ -14,7 +14,7 @@ TEST_CASE("runs of many boxes take coarser steps than one enclosure") {
 }
 
 TEST_CASE("options of steps are run options, and options of a test are both") {
-    run_options const run = enclosure_options{.tolerance = 0.5};
+    run_options const run{enclosure_options{.tolerance = 0.5}};
     CHECK(run.tolerance == 0.5);
     feasibility_test_options test;
     test.tolerance = 0.25;

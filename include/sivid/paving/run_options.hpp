@@ -24,12 +24,10 @@ using run_maker = std::unique_ptr<experiment_run> (*)(flow const&, experiment co
 /// How an experiment is run over a box of parameters and starts: coarser steps than those of
 /// `enclosure_options`, for one of many.
 struct run_options : enclosure_options {
-    // Not explicit: steps are run options that leave the sets to this class.
-    run_options(enclosure_options const& steps = {.order = 12,
-                                                  .tolerance = 1e-7,
-                                                  .relative_tolerance = 1e-4,
-                                                  .minimum_step = 1e-3})
-        : enclosure_options(steps) {}
+    run_options()
+        : enclosure_options{
+              .order = 12, .tolerance = 1e-7, .relative_tolerance = 1e-4, .minimum_step = 1e-3} {}
+    explicit run_options(enclosure_options const& steps) : enclosure_options(steps) {}
 
     carried_set set = carried_set::taylor_model;
     /// Of the Taylor models; 0: `suggested_degree`. (Points need none.)
