@@ -5,7 +5,6 @@
 #include "support/catch.hpp"
 
 #include <sivid/approximate/candidate/screening.hpp>
-
 #include <sivid/paving/relation/detail/broken_relation.hpp>
 
 #include <algorithm>
