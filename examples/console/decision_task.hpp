@@ -15,7 +15,6 @@
 #include <sivid/decision/control_law.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/requirement.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset/dataset_digest.hpp>
@@ -25,6 +24,7 @@
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/io/scenario.hpp>
 #include <sivid/io/text/text_file.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/closed_loop.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/manoeuvre.hpp>

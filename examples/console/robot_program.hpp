@@ -14,13 +14,13 @@
 #include "result_files.hpp"
 #include "thorough_diagnosis.hpp"
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>

@@ -5,10 +5,10 @@
 #include "effects.hpp"
 #include "generate.hpp"
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/named_effects.hpp>
 
 #include <algorithm>

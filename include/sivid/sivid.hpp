@@ -51,6 +51,7 @@
 #include <sivid/measurement/record.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/measurement/wrapped_readings.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/best_settings.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/change/added_start.hpp>
@@ -76,6 +77,7 @@
 #include <sivid/model/model.hpp>
 #include <sivid/model/named_effects.hpp>
 #include <sivid/model/parameter_choice.hpp>
+#include <sivid/model/prior_end.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/problem_text.hpp>
 #include <sivid/model/series/series.hpp>
@@ -89,6 +91,9 @@
 #include <sivid/model/to_dot.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/approximate/candidate/candidate.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
+#include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/approximate/place/place.hpp>
@@ -199,13 +204,8 @@
 #include <sivid/decision/requirement/requirement_types.hpp>
 #include <sivid/decision/requirement/robustness.hpp>
 #include <sivid/decision/verification.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/candidate/beyond_prior.hpp>
-#include <sivid/diagnosis/candidate/candidate.hpp>
 #include <sivid/diagnosis/candidate/effect_hull_options.hpp>
 #include <sivid/diagnosis/candidate/resolve_memory.hpp>
-#include <sivid/diagnosis/candidate/screened.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>

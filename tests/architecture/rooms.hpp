@@ -23,7 +23,7 @@ inline std::map<std::string_view, std::vector<std::string_view>> const rooms{
     {"number", {"rounding", "text", "pack", "elementary", "polynomial"}},
     {"space", {"exact", "linear_program", "frame"}},
     {"model", {"graph", "structure", "series", "change"}},
-    {"approximate", {"simulate", "fit", "place"}},
+    {"approximate", {"simulate", "fit", "candidate", "place"}},
     {"enclosure",
      {"series", "set", "runge_kutta", "stiff", "step", "taylor", "sensitivity", "advice"}},
     {"paving",

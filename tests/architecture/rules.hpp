@@ -142,23 +142,22 @@ inline std::string_view compiler_word(std::string const& line, std::string_view 
 /// What the floors of the proofs may know of the floor `approximate`: what its fits and estimates
 /// return. Where one is *started* is said here.
 inline bool may_include_approximate(std::string_view other, std::string_view includer) {
-    static std::set<std::string_view> const results{"approximate_fit.hpp", "detail/residuals.hpp",
-                                                    "place/estimated_place.hpp", "place/place.hpp"};
+    static std::set<std::string_view> const results{
+        "approximate_fit.hpp",    "detail/residuals.hpp",      "candidate/candidate.hpp",
+        "candidate/screened.hpp", "place/estimated_place.hpp", "place/place.hpp"};
     static std::map<std::string_view, std::set<std::string_view>> const starters{
         {"sivid/paving/impl/identify.ipp", {"fit/fit.hpp"}},
         {"sivid/paving/online/detail/online_witness.hpp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/candidate/screening.hpp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/candidate/detail/candidate_fit.hpp",
-         {"fit/fit.hpp", "fit/detail/thinned.hpp"}},
-        {"sivid/diagnosis/candidate/detail/episode_fit.hpp",
-         {"fit/fit.hpp", "fit/detail/thinned.hpp"}},
         {"sivid/diagnosis/hold_out/detail/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim/detail/claim_review.hpp", {"fit/detail/approximate_campaign.hpp"}},
         {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/impl/manoeuvre.ipp", {"fit/fit.hpp"}},
-        {"sivid/diagnosis/impl/diagnose.ipp", {"place/detail/place_estimate.hpp"}},
+        {"sivid/diagnosis/impl/diagnose.ipp",
+         {"candidate/screening.hpp", "place/detail/place_estimate.hpp"}},
+        {"sivid/diagnosis/impl/identify_remembering.ipp", {"candidate/screening.hpp"}},
+        {"sivid/cluster/diagnose.hpp", {"candidate/screening.hpp"}},
         {"sivid/report/fill/detail/scenario_report.hpp", {"simulate/simulate.hpp"}},
         {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/detail/counterexample.hpp"}},
         {"sivid/verifier/claim/detail/fewest_outliers_check.hpp",

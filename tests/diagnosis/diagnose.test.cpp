@@ -8,6 +8,8 @@
 #include "support/pendulum.hpp"
 #include "support/sweep.hpp"
 
+#include <sivid/model/named_effects.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -39,27 +39,4 @@ TEST_CASE("verdicts have their names in files") {
     CHECK(to_string(cause_verdict::excluded) == "excluded");
     CHECK(to_string(answer_kind::unexplained) == "unexplained");
     CHECK(to_string(answer_kind::open) == "open");
-    CHECK(to_string(prior_end::lower) == "lower");
-}
-
-TEST_CASE("a value at the end of its prior is seen, but not where the end is 0") {
-    interval const prior(1, 3);
-    CHECK(end_of_prior(1.0019, prior) == prior_end::lower);
-    CHECK(end_of_prior(2.9999, prior) == prior_end::upper);
-    CHECK(end_of_prior(1.1, prior) == prior_end::none);
-    CHECK(end_of_prior(0, interval(0, 1)) == prior_end::none); // where an effect vanishes
-    CHECK(end_of_prior(1, interval(0, 1)) == prior_end::upper);
-    CHECK(end_of_prior(-1, interval(-1, 0)) == prior_end::lower);
-    CHECK(end_of_prior(2, interval(2, 2)) == prior_end::none); // not to be found
-}
-
-TEST_CASE("what was tried is complete when nothing planned is left") {
-    tried_candidates t;
-    CHECK(t.complete());
-    t.singles = {4, 4};
-    t.pairs = {0, 6};
-    CHECK_FALSE(t.complete());
-    CHECK(t.planned() == 10);
-    t.pairs.tried = 6;
-    CHECK(t.complete());
 }

@@ -4,8 +4,8 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/model/effects.hpp>
 

@@ -4,7 +4,7 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/approximate/candidate/screening.hpp>
 
 using namespace sivid;
 

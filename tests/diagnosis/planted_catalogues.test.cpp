@@ -2,18 +2,18 @@
 // Catalogues that are written otherwise than most: channels and experiments that stand twice,
 // names that are taken, effects that cannot be joined or start where others say, priors that reach
 // too far. The truth stays, or the catalogue is refused.
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/diagnosis/identify_remembering.hpp>
 #include <sivid/diagnosis/verification.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include "diagnosis/late_position.hpp"
 #include "diagnosis/small_campaign.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 #include <sivid/diagnosis/candidate/detail/episode_hulls.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/gap/detail/part_inflation.hpp>
 #include <sivid/model/effects.hpp>
 #include <sivid/model/named_effects.hpp>

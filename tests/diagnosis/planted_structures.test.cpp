@@ -2,17 +2,17 @@
 // Legal problems that are built otherwise than most: one parameter in several places, an effect
 // that does two things, readings that begin late, a saturation that acts here and there. The truth
 // is planted, and has to stay.
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/verification.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include "diagnosis/late_position.hpp"
 #include "diagnosis/planted_motion.hpp"
 #include "diagnosis/small_campaign.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/approximate/candidate/detail/wrapped_channels.hpp>
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 #include <sivid/diagnosis/candidate/detail/episode_hulls.hpp>
-#include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
 #include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
 #include <sivid/model/effects.hpp>
 #include <sivid/paving/inflation.hpp>

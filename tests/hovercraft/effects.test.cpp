@@ -6,8 +6,8 @@
 #include "support/flow_simulation.hpp"
 #include "support/random.hpp"
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/bound_model.hpp>
 
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "io/import_support.hpp"
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/effects.hpp>
 
 #include "../../examples/measured/servo_axis/linear_axis.hpp"

@@ -6,7 +6,7 @@
 #include "support/catch.hpp"
 #include "support/threads.hpp"
 
-#include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/approximate/candidate/screening.hpp>
 
 #include <atomic>
 

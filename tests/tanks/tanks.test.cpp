@@ -7,7 +7,7 @@
 #include "support/child_program.hpp"
 
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -8,7 +8,7 @@
 #include "windows.hpp"
 
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/report/table.hpp>
 
 #include <algorithm>

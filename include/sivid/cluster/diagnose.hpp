@@ -3,14 +3,14 @@
 #define SIVID_CLUSTER_DIAGNOSE_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
+#include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/cluster/identity.hpp>
 #include <sivid/cluster/transport.hpp>
 #include <sivid/cluster/wire.hpp>
 #include <sivid/cluster/worker.hpp>
 #include <sivid/cluster/worker_pool.hpp>
 #include <sivid/cluster/working_coordinator.hpp>
-#include <sivid/diagnosis/candidate/screened.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/problem.hpp>

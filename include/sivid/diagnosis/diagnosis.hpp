@@ -2,7 +2,9 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSIS_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSIS_HPP
 
+#include <sivid/approximate/candidate/candidate.hpp>
 #include <sivid/model/change/changed_formulas.hpp>
+#include <sivid/model/prior_end.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/paving/run/run_reach.hpp>
 
@@ -136,22 +138,6 @@ struct named_combination {
     bool of_effects = false; ///< a parameter of an effect is among the parts
 };
 
-/// The end of its prior that a value sits on.
-enum class prior_end { none, lower, upper };
-[[nodiscard]] constexpr std::string_view to_string(prior_end e) {
-    return e == prior_end::none ? "none" : e == prior_end::lower ? "lower" : "upper";
-}
-
-/// Which end of its prior a value lies at, within a thousandth of the prior's width. An end of 0 is
-/// none: there a quantity that is positive by its nature, or an effect, vanishes.
-[[nodiscard]] inline prior_end end_of_prior(double value, interval const& prior) {
-    double const near = 1e-3 * (prior.upper() - prior.lower());
-    if (!(near > 0)) return prior_end::none;
-    if (prior.lower() != 0 && value - prior.lower() <= near) return prior_end::lower;
-    if (prior.upper() != 0 && prior.upper() - value <= near) return prior_end::upper;
-    return prior_end::none;
-}
-
 /// A constant at the end of its prior: what lies beyond was not looked at.
 struct constant_at_end {
     std::vector<std::string> effects; ///< of the model whose constant it is; none: as it is
@@ -261,20 +247,6 @@ enum class answer_kind {
            : k == answer_kind::unexplained ? "unexplained"
                                            : "open";
 }
-
-/// How many sets of effects were tried, of those that were to be.
-struct tried_candidates {
-    struct count {
-        std::size_t tried = 0, planned = 0;
-    };
-    count singles, pairs, larger;
-
-    [[nodiscard]] std::size_t tried() const { return singles.tried + pairs.tried + larger.tried; }
-    [[nodiscard]] std::size_t planned() const {
-        return singles.planned + pairs.planned + larger.planned;
-    }
-    [[nodiscard]] bool complete() const { return tried() >= planned(); }
-};
 
 /// What is left of a gap with the candidate that comes closest, when none explains the data.
 struct unexplained_remainder {

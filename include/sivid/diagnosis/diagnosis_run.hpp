@@ -2,11 +2,11 @@
 #ifndef SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 #define SIVID_DIAGNOSIS_DIAGNOSIS_RUN_HPP
 
+#include <sivid/approximate/candidate/candidate.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/approximate/place/estimated_place.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate/candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
-#include <sivid/diagnosis/candidate/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/gap/verified_inflation.hpp>

@@ -2,10 +2,10 @@
 #ifndef SIVID_DIAGNOSIS_HOLDOUT_HPP
 #define SIVID_DIAGNOSIS_HOLDOUT_HPP
 
-#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
 #include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
-#include <sivid/diagnosis/candidate/screened.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include <cstddef>
 #include <optional>

@@ -2,8 +2,8 @@
 #ifndef SIVID_DIAGNOSIS_MANOEUVRE_HPP
 #define SIVID_DIAGNOSIS_MANOEUVRE_HPP
 
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/manoeuvre.hpp>
 

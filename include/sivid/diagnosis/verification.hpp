@@ -3,10 +3,10 @@
 #define SIVID_DIAGNOSIS_VERIFICATION_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/resolve_memory.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/gap/verified_inflation.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/judge/box_explorer.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>

@@ -2,6 +2,7 @@
 #ifndef SIVID_IMPL_APPROXIMATE_IPP
 #define SIVID_IMPL_APPROXIMATE_IPP
 
+#include <sivid/approximate/candidate/impl/wrapped_channels.ipp>
 #include <sivid/approximate/fit/impl/counterexample.ipp>
 #include <sivid/approximate/fit/impl/fit.ipp>
 #include <sivid/approximate/place/impl/place_estimate.ipp>

@@ -8,9 +8,7 @@
 #include <sivid/diagnosis/candidate/impl/late_channels.ipp>
 #include <sivid/diagnosis/candidate/impl/proposed_faults.ipp>
 #include <sivid/diagnosis/candidate/impl/sliced_input.ipp>
-#include <sivid/diagnosis/candidate/impl/wrapped_channels.ipp>
 #include <sivid/diagnosis/gap/impl/confined_gap.ipp>
-#include <sivid/diagnosis/impl/affected_problem.ipp>
 #include <sivid/diagnosis/impl/diagnose.ipp>
 #include <sivid/diagnosis/impl/diagnosis_run.ipp>
 #include <sivid/diagnosis/impl/identify_remembering.ipp>

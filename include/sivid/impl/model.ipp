@@ -7,6 +7,7 @@
 #include <sivid/model/graph/impl/graph.ipp>
 #include <sivid/model/graph/impl/graph_listing.ipp>
 #include <sivid/model/graph/impl/linear_solution.ipp>
+#include <sivid/model/impl/affected_problem.ipp>
 #include <sivid/model/impl/bound_model.ipp>
 #include <sivid/model/impl/closed_loop.ipp>
 #include <sivid/model/impl/describe.ipp>

@@ -4,8 +4,8 @@
 #include "diagnosis/small_campaign.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/enclosure/flow.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 using namespace sivid;
 using namespace sivid::literals;

@@ -4,12 +4,12 @@
 
 #include <sivid/diagnosis/diagnose.hpp>
 
+#include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/approximate/place/detail/place_estimate.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/candidate/detail/candidate_order.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
 #include <sivid/diagnosis/candidate/detail/proposed_faults.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/claim/detail/answer_formulas.hpp>
 #include <sivid/diagnosis/claim/detail/answer_hulls.hpp>
 #include <sivid/diagnosis/claim/detail/candidate_verdicts.hpp>

@@ -4,11 +4,11 @@
 
 #include <sivid/diagnosis/identify_remembering.hpp>
 
+#include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/verification.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>

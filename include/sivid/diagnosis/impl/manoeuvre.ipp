@@ -4,9 +4,9 @@
 
 #include <sivid/diagnosis/manoeuvre.hpp>
 
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/best_settings.hpp>
 #include <sivid/model/manoeuvre.hpp>

@@ -5,8 +5,8 @@
 #include "support/catch.hpp"
 #include "support/sweep.hpp"
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/hull_search.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/effects.hpp>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 
 #include <string>
 

@@ -4,6 +4,7 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/paving/relation/detail/broken_relation.hpp>
 
 #include <algorithm>

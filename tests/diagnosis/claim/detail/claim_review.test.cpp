@@ -4,6 +4,8 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/approximate/candidate/screening.hpp>
+
 using namespace sivid;
 
 namespace {

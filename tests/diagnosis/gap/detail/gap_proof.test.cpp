@@ -5,6 +5,8 @@
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/approximate/candidate/screening.hpp>
+
 using namespace sivid;
 
 namespace {

@@ -2,7 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_CANDIDATE_ORDER_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_CANDIDATE_ORDER_HPP
 
-#include <sivid/diagnosis/candidate/candidate.hpp>
+#include <sivid/approximate/candidate/candidate.hpp>
 
 #include <algorithm>
 #include <cstddef>

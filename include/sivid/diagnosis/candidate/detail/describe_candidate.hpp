@@ -2,10 +2,10 @@
 #ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DESCRIBE_CANDIDATE_HPP
 #define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DESCRIBE_CANDIDATE_HPP
 
-#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/diagnosis/candidate/detail/explained_hull.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/structure/find_combinations.hpp>
 
 #include <algorithm>

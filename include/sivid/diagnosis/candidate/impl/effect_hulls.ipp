@@ -4,10 +4,10 @@
 
 #include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/hull_search.hpp>
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include <algorithm>
 #include <cstddef>

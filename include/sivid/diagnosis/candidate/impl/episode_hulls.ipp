@@ -4,11 +4,10 @@
 
 #include <sivid/diagnosis/candidate/detail/episode_hulls.hpp>
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/hull_search.hpp>
 #include <sivid/diagnosis/candidate/detail/late_channels.hpp>
 #include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
-#include <sivid/diagnosis/candidate/detail/soft_switch.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include <algorithm>
 #include <cmath>

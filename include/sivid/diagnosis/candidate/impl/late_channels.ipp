@@ -4,10 +4,10 @@
 
 #include <sivid/diagnosis/candidate/detail/late_channels.hpp>
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/hull_search.hpp>
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/measurement/detail/widened_signal.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include <algorithm>
 #include <cstddef>

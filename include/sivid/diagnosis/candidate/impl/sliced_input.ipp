@@ -4,11 +4,11 @@
 
 #include <sivid/diagnosis/candidate/detail/sliced_input.hpp>
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/candidate/detail/hull_search.hpp>
 #include <sivid/diagnosis/candidate/detail/input_slices.hpp>
 #include <sivid/diagnosis/candidate/detail/late_channels.hpp>
 #include <sivid/diagnosis/candidate/resolve_memory.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/paving/relation/detail/untouched_relation.hpp>
 
 #include <algorithm>

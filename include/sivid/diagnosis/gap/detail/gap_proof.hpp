@@ -3,7 +3,7 @@
 #define SIVID_DIAGNOSIS_GAP_DETAIL_GAP_PROOF_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_effort.hpp>
 #include <sivid/diagnosis/gap/verified_inflation.hpp>

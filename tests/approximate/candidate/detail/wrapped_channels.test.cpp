@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
+#include <sivid/approximate/candidate/detail/wrapped_channels.hpp>
 
 #include "diagnosis/small_campaign.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/effects.hpp>
 #include <sivid/model/named_effects.hpp>
 

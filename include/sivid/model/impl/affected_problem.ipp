@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_IMPL_AFFECTED_PROBLEM_IPP
-#define SIVID_DIAGNOSIS_IMPL_AFFECTED_PROBLEM_IPP
+#ifndef SIVID_MODEL_IMPL_AFFECTED_PROBLEM_IPP
+#define SIVID_MODEL_IMPL_AFFECTED_PROBLEM_IPP
 
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/measurement/wrapped_readings.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace sivid {
 
-namespace diagnosis_detail {
+namespace model_detail {
 /// A formula where it stays as it is, so that the model folds; a held input with knots where the
 /// effect begins and ends.
 inline signal switch_of(effect const& e, experiment const& x) {
@@ -78,7 +78,7 @@ inline signal wraps_in(experiment const& x, identification_problem const& base,
     }
     return held(*first);
 }
-} // namespace diagnosis_detail
+} // namespace model_detail
 
 SIVID_DECL identification_problem affected(identification_problem const& base,
                                            std::vector<effect> const& effects) {
@@ -87,7 +87,7 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
     auto const& inputs = result.model.about.inputs;
     std::map<std::string, interval> turns; // by effect
     for (auto const& e : effects)
-        if (e.wraps) turns[e.name] = diagnosis_detail::turn_of(base, e);
+        if (e.wraps) turns[e.name] = model_detail::turn_of(base, e);
     std::vector<interval> constants;
     if (!turns.empty()) constants = constant_ranges(base.model, base.choice, base.prior);
     for (auto& x : result.experiments) {
@@ -105,11 +105,10 @@ SIVID_DECL identification_problem affected(identification_problem const& base,
                 });
             };
             if (auto const own = of(""); own != effects.end()) {
-                x.inputs.push_back(diagnosis_detail::switch_of(*own, x));
+                x.inputs.push_back(model_detail::switch_of(*own, x));
             } else {
                 auto const& e = *of(".wraps");
-                x.inputs.push_back(
-                    diagnosis_detail::wraps_in(x, base, constants, e, turns.at(e.name)));
+                x.inputs.push_back(model_detail::wraps_in(x, base, constants, e, turns.at(e.name)));
             }
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_AFFECTED_PROBLEM_HPP
-#define SIVID_DIAGNOSIS_AFFECTED_PROBLEM_HPP
+#ifndef SIVID_MODEL_AFFECTED_PROBLEM_HPP
+#define SIVID_MODEL_AFFECTED_PROBLEM_HPP
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/change/added_start.hpp>
@@ -36,6 +36,17 @@ namespace sivid {
     return words;
 }
 
+/// The effect with a switch that may change in the midst of any experiment of a problem.
+[[nodiscard]] inline effect switched_within_all(identification_problem const& base, effect e) {
+    std::vector<std::string> names;
+    std::vector<double> middles;
+    for (auto const& x : base.experiments) {
+        names.push_back(x.name);
+        middles.push_back(x.begin + 0.5 * (x.end() - x.begin));
+    }
+    return only_within(std::move(e), std::move(names), std::move(middles));
+}
+
 /// The same experiments, with effects joined to the model. The parameters of the effects become
 /// further unknowns, with the effects' priors; effects that act in some experiments only are
 /// switched on in these.
@@ -50,7 +61,7 @@ namespace sivid {
 } // namespace sivid
 
 #ifndef SIVID_COMPILED
-#include <sivid/diagnosis/impl/affected_problem.ipp>
+#include <sivid/model/impl/affected_problem.ipp>
 #endif
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/candidate/screened.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
 
 #include "support/catch.hpp"
 

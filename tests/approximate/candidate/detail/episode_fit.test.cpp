@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/candidate/detail/episode_fit.hpp>
+#include <sivid/approximate/candidate/detail/episode_fit.hpp>
 
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
 #include "support/sweep.hpp"
 
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/diagnosis/verification.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/effects.hpp>
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_IMPL_WRAPPED_CHANNELS_IPP
-#define SIVID_DIAGNOSIS_CANDIDATE_IMPL_WRAPPED_CHANNELS_IPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_IMPL_WRAPPED_CHANNELS_IPP
+#define SIVID_APPROXIMATE_CANDIDATE_IMPL_WRAPPED_CHANNELS_IPP
 
-#include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
+#include <sivid/approximate/candidate/detail/wrapped_channels.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
 #include <sivid/measurement/wrapped_readings.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/named_effects.hpp>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace sivid {
 
-namespace diagnosis_detail {
+namespace approximate_detail {
 
 /// Two digits, no less than x > 0.
 inline std::string two_digits_above(double x) {
@@ -34,7 +34,7 @@ inline std::string two_digits_above(double x) {
     return {text.data(), end.ptr};
 }
 
-} // namespace diagnosis_detail
+} // namespace approximate_detail
 
 SIVID_DECL std::vector<effect> with_wrapped_channels(identification_problem const& problem,
                                                      std::vector<effect> catalogue) {
@@ -48,7 +48,7 @@ SIVID_DECL std::vector<effect> with_wrapped_channels(identification_problem cons
             return e.wraps && e.wraps->channel == channel.name;
         });
         if (!(range > 0) || known) continue;
-        auto const size = diagnosis_detail::two_digits_above(2 * range);
+        auto const size = approximate_detail::two_digits_above(2 * range);
         try {
             auto fault = sensor_fault("sensor_wrap(" + channel.name + ")~" + size, &about);
             (void)affected(problem, {fault});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_SCREENED_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_SCREENED_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_SCREENED_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_SCREENED_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/diagnosis/candidate/candidate.hpp>
+#include <sivid/approximate/candidate/candidate.hpp>
 #include <sivid/executor.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>

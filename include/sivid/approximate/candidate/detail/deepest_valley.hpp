@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DEEPEST_VALLEY_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_DEEPEST_VALLEY_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_DETAIL_DEEPEST_VALLEY_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_DETAIL_DEEPEST_VALLEY_HPP
+
+#include <sivid/approximate/candidate/detail/soft_switch.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
-
-#include <sivid/diagnosis/candidate/detail/soft_switch.hpp>
 
 namespace sivid {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/approximate/candidate/screening.hpp>
 
 #include <sivid/approximate/fit/detail/thinned.hpp>
 

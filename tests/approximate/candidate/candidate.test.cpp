@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/candidate/candidate.hpp>
+#include <sivid/approximate/candidate/candidate.hpp>
 
 #include "support/catch.hpp"
 
@@ -61,4 +61,15 @@ TEST_CASE("the closest candidate has few effects where more buy little") {
               {tried({}, 9), tried({0}, 5), tried({0, 1}, 2.64), tried({0, 1, 2}, 2.0)}) == 3);
     CHECK(closest_candidate({candidate{}, candidate{}}) == 0); // no fit succeeded
     CHECK(closest_candidate({}) == 0);
+}
+
+TEST_CASE("what was tried is complete when nothing planned is left") {
+    tried_candidates t;
+    CHECK(t.complete());
+    t.singles = {4, 4};
+    t.pairs = {0, 6};
+    CHECK_FALSE(t.complete());
+    CHECK(t.planned() == 10);
+    t.pairs.tried = 6;
+    CHECK(t.complete());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_CANDIDATE_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_CANDIDATE_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_CANDIDATE_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_CANDIDATE_HPP
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +27,20 @@ struct candidate {
     }
     /// All data within their bounds.
     [[nodiscard]] bool explains() const { return inflation <= 1; }
+};
+
+/// How many sets of effects were tried, of those that were to be.
+struct tried_candidates {
+    struct count {
+        std::size_t tried = 0, planned = 0;
+    };
+    count singles, pairs, larger;
+
+    [[nodiscard]] std::size_t tried() const { return singles.tried + pairs.tried + larger.tried; }
+    [[nodiscard]] std::size_t planned() const {
+        return singles.planned + pairs.planned + larger.planned;
+    }
+    [[nodiscard]] bool complete() const { return tried() >= planned(); }
 };
 
 /// Which candidate it is.

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_SCREENING_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_SCREENING_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_SCREENING_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_SCREENING_HPP
 
+#include <sivid/approximate/candidate/candidate.hpp>
+#include <sivid/approximate/candidate/detail/beyond_prior.hpp>
+#include <sivid/approximate/candidate/detail/candidate_fit.hpp>
+#include <sivid/approximate/candidate/detail/effect_sets.hpp>
+#include <sivid/approximate/candidate/detail/episode_search.hpp>
+#include <sivid/approximate/candidate/detail/wrapped_channels.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/candidate/beyond_prior.hpp>
-#include <sivid/diagnosis/candidate/candidate.hpp>
-#include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
-#include <sivid/diagnosis/candidate/detail/effect_sets.hpp>
-#include <sivid/diagnosis/candidate/detail/episode_search.hpp>
-#include <sivid/diagnosis/candidate/detail/wrapped_channels.hpp>
-#include <sivid/diagnosis/candidate/screened.hpp>
-#include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/work_limit.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_EPISODE_SEARCH_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_EPISODE_SEARCH_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_DETAIL_EPISODE_SEARCH_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_DETAIL_EPISODE_SEARCH_HPP
 
-#include <sivid/diagnosis/candidate/detail/episode_fit.hpp>
+#include <sivid/approximate/candidate/detail/episode_fit.hpp>
 #include <sivid/executor.hpp>
 
 #include <algorithm>

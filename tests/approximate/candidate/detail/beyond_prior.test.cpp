@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/candidate/beyond_prior.hpp>
-#include <sivid/diagnosis/candidate/screening.hpp>
+#include <sivid/approximate/candidate/detail/beyond_prior.hpp>
+#include <sivid/approximate/candidate/screening.hpp>
 
 #include "diagnosis/small_catalogue.hpp"
 #include "support/catch.hpp"
@@ -52,10 +52,4 @@ TEST_CASE("an effect has one index in a catalogue") {
     CHECK(index_of_effect(catalogue, only_within(catalogue[2], {"E1"})) == n);
     CHECK(index_of_effect(catalogue, only_within(catalogue[2], {"E1"})) == n);
     CHECK(catalogue.size() == n + 1);
-}
-
-TEST_CASE("what sits at the end of its prior is moved to the middle") {
-    auto const problem = small_campaign::problem(); // k in 0.5 .. 1.5
-    CHECK(away_from_ends(problem, {1.5}) == std::vector<double>{1.0});
-    CHECK(away_from_ends(problem, {1.2}) == std::vector<double>{1.2});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/model/affected_problem.hpp>
 
 #include "diagnosis/small_campaign.hpp"
 #include "support/catch.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_WRAPPED_CHANNELS_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_WRAPPED_CHANNELS_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_DETAIL_WRAPPED_CHANNELS_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_DETAIL_WRAPPED_CHANNELS_HPP
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/effect.hpp>
@@ -19,7 +19,7 @@ with_wrapped_channels(identification_problem const& problem, std::vector<effect>
 } // namespace sivid
 
 #ifndef SIVID_COMPILED
-#include <sivid/diagnosis/candidate/impl/wrapped_channels.ipp>
+#include <sivid/approximate/candidate/impl/wrapped_channels.ipp>
 #endif
 
 #endif

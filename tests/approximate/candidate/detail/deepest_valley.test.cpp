@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/diagnosis/candidate/detail/deepest_valley.hpp>
+#include <sivid/approximate/candidate/detail/deepest_valley.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_SOFT_SWITCH_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_SOFT_SWITCH_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_DETAIL_SOFT_SWITCH_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_DETAIL_SOFT_SWITCH_HPP
 
-#include <sivid/diagnosis/affected_problem.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 
@@ -18,17 +18,6 @@ namespace sivid {
 struct episode_ends {
     bool begins = true, ends = false;
 };
-
-/// The effect with a switch that may change in the midst of any experiment of a problem.
-[[nodiscard]] inline effect switched_within_all(identification_problem const& base, effect e) {
-    std::vector<std::string> names;
-    std::vector<double> middles;
-    for (auto const& x : base.experiments) {
-        names.push_back(x.name);
-        middles.push_back(x.begin + 0.5 * (x.end() - x.begin));
-    }
-    return only_within(std::move(e), std::move(names), std::move(middles));
-}
 
 /// A problem with an effect whose switch is a smooth step in time, or one up and one down, whose
 /// length is this share of each experiment. At which share of it they are made are further

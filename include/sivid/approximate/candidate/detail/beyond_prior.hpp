@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_BEYOND_PRIOR_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_BEYOND_PRIOR_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_DETAIL_BEYOND_PRIOR_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_DETAIL_BEYOND_PRIOR_HPP
 
-#include <sivid/diagnosis/candidate/screened.hpp>
-#include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/model/effect.hpp>
-#include <sivid/model/problem.hpp>
+#include <sivid/model/prior_end.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,16 +13,6 @@
 #include <vector>
 
 namespace sivid {
-
-/// The parameters, those at the end of their prior moved to its middle.
-[[nodiscard]] inline std::vector<double> away_from_ends(identification_problem const& problem,
-                                                        std::vector<double> parameters) {
-    for (std::size_t j = 0; j < parameters.size(); ++j) {
-        auto const& side = problem.prior[j];
-        if (end_of_prior(parameters[j], side) != prior_end::none) parameters[j] = mid(side);
-    }
-    return parameters;
-}
 
 /// The index of the effect of this name in a catalogue, to which it is added where it is not there.
 [[nodiscard]] inline std::size_t index_of_effect(std::vector<effect>& catalogue, effect e) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_CANDIDATE_FIT_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_CANDIDATE_FIT_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_DETAIL_CANDIDATE_FIT_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_DETAIL_CANDIDATE_FIT_HPP
 
+#include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/diagnosis/candidate/beyond_prior.hpp>
-#include <sivid/diagnosis/candidate/screened.hpp>
+#include <sivid/model/prior_end.hpp>
+#include <sivid/model/problem.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -152,7 +153,7 @@ inline void leave_corners(identification_problem const& problem, approximate_fit
     constexpr double promising = 3; // of more effects than one
     if (found.inflation > 1 && (effects == 1 || found.inflation < promising)) {
         // What sits at the end of its prior may be stuck there.
-        auto const freed = away_from_ends(problem, found.parameters);
+        auto const freed = away_from_ends(problem.prior, found.parameters);
         if (freed != found.parameters) {
             auto other = descend({freed});
             if (other.inflation < found.inflation) found = std::move(other);

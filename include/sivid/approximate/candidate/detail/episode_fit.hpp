@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_DIAGNOSIS_CANDIDATE_DETAIL_EPISODE_FIT_HPP
-#define SIVID_DIAGNOSIS_CANDIDATE_DETAIL_EPISODE_FIT_HPP
+#ifndef SIVID_APPROXIMATE_CANDIDATE_DETAIL_EPISODE_FIT_HPP
+#define SIVID_APPROXIMATE_CANDIDATE_DETAIL_EPISODE_FIT_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/approximate/candidate/detail/candidate_fit.hpp>
+#include <sivid/approximate/candidate/detail/deepest_valley.hpp>
+#include <sivid/approximate/candidate/detail/soft_switch.hpp>
 #include <sivid/approximate/fit/detail/thinned.hpp>
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/diagnosis/affected_problem.hpp>
-#include <sivid/diagnosis/candidate/detail/candidate_fit.hpp>
-#include <sivid/diagnosis/candidate/detail/deepest_valley.hpp>
-#include <sivid/diagnosis/candidate/detail/soft_switch.hpp>
+#include <sivid/model/affected_problem.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 
