@@ -12,7 +12,7 @@ namespace sivid {
 
 template class implicit_stages<taylor_model<double>>;
 template class parametric_flow<taylor_model<double>>;
-template class parametric_runge_kutta<taylor_model<double>>;
+template class parametric_flow<taylor_model<double>, runge_kutta_centre<taylor_model<double>>>;
 
 } // namespace sivid
 

@@ -64,13 +64,10 @@ public:
         look.set_ensemble(family);
         auto const run = run_to(t);
         auto seen = look.over(t, interval(t), states_at(t, run ? &run->set() : nullptr));
-        if constexpr (requires(Run & r) { r.outputs(); }) {
-            if (!run) return seen;
-            auto const outputs = run->outputs(); // as functions of the unknowns
-            for (std::size_t y = 0; y < seen.size(); ++y) {
-                if (std::isfinite(outputs[y].norm()))
-                    seen[y] = intersect(seen[y], range(outputs[y]));
-            }
+        if (!run) return seen;
+        auto const outputs = run->outputs(); // as functions of the unknowns
+        for (std::size_t y = 0; y < seen.size(); ++y) {
+            if (std::isfinite(outputs[y].norm())) seen[y] = intersect(seen[y], range(outputs[y]));
         }
         return seen;
     }

@@ -19,9 +19,9 @@
 
 namespace sivid {
 
-template <class Model>
-void parametric_flow<Model>::begin(std::size_t lane, double time, box const& initial,
-                                   box const& parameters) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::begin(std::size_t lane, double time, box const& initial,
+                                           box const& parameters) {
     require_sound_environment();
     if (lane >= width) throw std::out_of_range("parametric_flow: no such lane");
     if (initial.size() != flow_->states() || parameters.size() != flow_->parameters()) {
@@ -54,6 +54,7 @@ void parametric_flow<Model>::begin(std::size_t lane, double time, box const& ini
     tube_.set_parameters(tube_parameters_);
     observe_.set_parameters(parameters_);
     if (perturbed_) perturbed_->set_parameters(column_parameters_);
+    if constexpr (Centre::by_formula) method_.set_parameters(parameters_, tube_parameters_);
     for (auto& x : disturbed_) {
         if (alone) x = 0.0;
         side_by_side::put(x, lane, 0.0);
@@ -61,8 +62,9 @@ void parametric_flow<Model>::begin(std::size_t lane, double time, box const& ini
     if (alone) { // a fresh start for all
         set_ = set_type(flow_->states(), *shape_);
         // Knots of sampled inputs keep steps short; what lies between them decides on the order.
-        order_ = flow_->sampled_inputs().empty() ? options_.order
-                                                 : std::min<std::size_t>(options_.order, 6);
+        order_ = Centre::by_formula || flow_->sampled_inputs().empty()
+                     ? options_.order
+                     : std::min<std::size_t>(options_.order, 6);
         flow_order_ = 3;
     }
     set_.begin(lane, time, unknowns, alone);
@@ -74,8 +76,9 @@ void parametric_flow<Model>::begin(std::size_t lane, double time, box const& ini
     stale_ = true;
 }
 
-template <class Model>
-std::vector<typename parametric_flow<Model>::polynomial> parametric_flow<Model>::outputs() {
+template <class Model, class Centre>
+std::vector<typename parametric_flow<Model, Centre>::polynomial>
+parametric_flow<Model, Centre>::outputs() {
     std::vector<polynomial> x;
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         x.push_back(widened(set_.centre[i], set_.reach[i]));
@@ -92,8 +95,8 @@ std::vector<typename parametric_flow<Model>::polynomial> parametric_flow<Model>:
     return result;
 }
 
-template <class Model>
-void parametric_flow<Model>::expand(std::size_t order) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::expand(std::size_t order) {
     auto const through = [&](std::vector<polynomial> const& start) {
         centre_.expand(set_.time, polynomial::constant(set_.time), start,
                        std::max<std::size_t>(order, 1));
@@ -114,8 +117,8 @@ void parametric_flow<Model>::expand(std::size_t order) {
     expanded_ = 0;
 }
 
-template <class Model>
-void parametric_flow<Model>::expand_flow(std::size_t flow_order) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::expand_flow(std::size_t flow_order) {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         around_[i] = widened(converted(set_.centre[i], *column_shape_), set_.reach[i]);
     }
@@ -125,8 +128,8 @@ void parametric_flow<Model>::expand_flow(std::size_t flow_order) {
 }
 
 /// The step length at which a coefficient reaches what is allowed, and its state.
-template <class Model>
-std::pair<double, std::size_t> parametric_flow<Model>::estimate(std::size_t lane) const {
+template <class Model, class Centre>
+std::pair<double, std::size_t> parametric_flow<Model, Centre>::estimate(std::size_t lane) const {
     std::pair<double, std::size_t> least{infinity, 0};
     for (std::size_t k = std::max<std::size_t>(order_, 2) - 1; k <= order_; ++k) {
         for (std::size_t i = 0; i < set_.centre.size(); ++i) {
@@ -141,8 +144,8 @@ std::pair<double, std::size_t> parametric_flow<Model>::estimate(std::size_t lane
 }
 
 /// Step length from the last coefficients; a preference, no proof rests on it.
-template <class Model>
-double parametric_flow<Model>::propose(std::size_t lane, double rest) const {
+template <class Model, class Centre>
+double parametric_flow<Model, Centre>::propose(std::size_t lane, double rest) const {
     double const h =
         std::min({options_.longest_step(), rest, lanes_[lane].learned * estimate(lane).first});
     // A little longer rather than once more: the length aims at a tenth of what is allowed.
@@ -157,8 +160,8 @@ double parametric_flow<Model>::propose(std::size_t lane, double rest) const {
 ///   short steps, \f$ \ell(h)/h \to r_1 \f$; on long ones every term is magnified by norms,
 ///   like \f$ e^{3 h |A|} \f$. Where it is more than a step may lose, it should stay below \f$ 2 h
 ///   r_1 \f$. A preference, no proof rests on it.
-template <class Model>
-double parametric_flow<Model>::gentle(std::size_t lane, double h) const {
+template <class Model, class Centre>
+double parametric_flow<Model, Centre>::gentle(std::size_t lane, double h) const {
     if (shape_->degree == 0)
         return h; // no degree: all of it are roundings, which do not want more steps
     constexpr double most = 2, rounding = 1e-12;
@@ -182,8 +185,9 @@ double parametric_flow<Model>::gentle(std::size_t lane, double h) const {
 
 /// One order more where the tolerance limits the step, one less where the end of an interval or
 /// `gentle` does.
-template <class Model>
-void parametric_flow<Model>::adapt_order(mask moved, C const& h, bool clamped) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::adapt_order(mask moved, C const& h, bool clamped) {
+    if (Centre::by_formula) return;
     if (!clamped) {
         order_ = std::min(options_.order, order_ + 1);
         return;
@@ -202,8 +206,8 @@ void parametric_flow<Model>::adapt_order(mask moved, C const& h, bool clamped) {
 }
 
 /// The lanes whose sets still say enough; the others fail.
-template <class Model>
-typename parametric_flow<Model>::mask parametric_flow<Model>::useful(mask lanes) {
+template <class Model, class Centre>
+typename parametric_flow<Model, Centre>::mask parametric_flow<Model, Centre>::useful(mask lanes) {
     for (std::size_t i = 0; i < set_.centre.size(); ++i) {
         double const limit = flow_->model().about.states[i].limit;
         // What uncertain inputs cause is no weakness of the set: no smaller box would lose less.
@@ -227,8 +231,8 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::useful(mask lanes)
     return lanes;
 }
 
-template <class Model>
-void parametric_flow<Model>::reject(mask lanes, failure_reason reason, C const& shorten) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::reject(mask lanes, failure_reason reason, C const& shorten) {
     for (std::size_t l = 0; l < width; ++l) {
         if (!side_by_side::test(lanes, l)) continue;
         lanes_[l].why.reason = reason;
@@ -236,11 +240,12 @@ void parametric_flow<Model>::reject(mask lanes, failure_reason reason, C const& 
     }
 }
 
-template <class Model>
+template <class Model, class Centre>
 template <class Entry>
-std::optional<domain_edge> parametric_flow<Model>::edge(std::size_t lane, Entry const& times,
-                                                        std::vector<Entry> const& x,
-                                                        std::vector<Entry> const& p) const {
+std::optional<domain_edge> parametric_flow<Model, Centre>::edge(std::size_t lane,
+                                                                Entry const& times,
+                                                                std::vector<Entry> const& x,
+                                                                std::vector<Entry> const& p) const {
     return find_domain_edge(
         *flow_, set_.time, times, x, p,
         [lane](mask const& m) { return side_by_side::test(m, lane); },
@@ -250,24 +255,9 @@ std::optional<domain_edge> parametric_flow<Model>::edge(std::size_t lane, Entry 
         });
 }
 
-template <class Model>
-void parametric_flow<Model>::note_steepest(mask lanes, square const& m) {
-    auto const n = flow_->states();
-    for (std::size_t l = 0; l < width; ++l) {
-        if (!side_by_side::test(lanes, l)) continue;
-        double most = -1;
-        for (std::size_t i = 0; i < n; ++i) {
-            double row = 0;
-            for (std::size_t c = 0; c < n; ++c) row += side_by_side::get(m[i * n + c], l);
-            if (row <= most) continue;
-            most = std::isfinite(row) ? row : infinity;
-            lanes_[l].why.component = i;
-        }
-    }
-}
-
-template <class Model>
-typename parametric_flow<Model>::mask parametric_flow<Model>::advance(C const& limit) {
+template <class Model, class Centre>
+typename parametric_flow<Model, Centre>::mask
+parametric_flow<Model, Centre>::advance(C const& limit) {
     mask trying = running_ & (set_.time < limit);
     bool const cancelled = options_.cancelled();
     for (std::size_t l = 0; l < width; ++l) {
@@ -363,6 +353,7 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::advance(C const& l
     square w;
     mask jumps{};
     mask moved = attempt(trying, to, order, flow_order, w, jumps);
+    if constexpr (Centre::by_formula) moved = moved && apply_formula(to, w);
     if (perturbed_ && side_by_side::any(moved)) moved = perturb(moved, to);
     for (std::size_t l = 0; l < width; ++l) {
         if (!side_by_side::test(trying, l)) continue;

@@ -17,9 +17,9 @@
 
 namespace sivid {
 
-template <class Model>
-void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
-                                    std::size_t flow_order, square const& w, mask jumps) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::accept(mask moved, C const& to, std::size_t order,
+                                            std::size_t flow_order, square const& w, mask jumps) {
     using namespace enclosure_detail;
     auto const n = flow_->states();
     C const length = to - set_.time; // off by less than a unit
@@ -31,6 +31,12 @@ void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
     bool pays = false;
     std::size_t const top = tails_ ? order : order + 1;
     for (std::size_t i = 0; i < n; ++i) {
+        if constexpr (Centre::by_formula) {
+            next[i] = method_.at_end(i, tube_.state(i, order + 1));
+            lost[i] = next[i].r();
+            next[i].r() = 0.0;
+            continue;
+        }
         polynomial last;
         if (!tails_) last = without_last_variable(tube_.state(i, order + 1), *shape_);
         auto const coefficient = [&](std::size_t k) -> polynomial const& {

@@ -16,11 +16,36 @@
 
 namespace sivid {
 
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::meet_kink(mask lanes) {
+    if (Centre::by_formula) return reject(lanes, failure_reason::minimum_step, C(0.5));
+    for (std::size_t l = 0; l < width; ++l) {
+        if (side_by_side::test(lanes, l)) lanes_[l].rough = true;
+    }
+}
+
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::note_steepest(mask lanes, square const& m) {
+    auto const n = flow_->states();
+    for (std::size_t l = 0; l < width; ++l) {
+        if (!side_by_side::test(lanes, l)) continue;
+        double most = -1;
+        for (std::size_t i = 0; i < n; ++i) {
+            double row = 0;
+            for (std::size_t c = 0; c < n; ++c) row += side_by_side::get(m[i * n + c], l);
+            if (row <= most) continue;
+            most = std::isfinite(row) ? row : infinity;
+            lanes_[l].why.component = i;
+        }
+    }
+}
+
 /// The lanes whose truncation is allowed; the others try again with a shorter step.
-template <class Model>
-typename parametric_flow<Model>::mask
-parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
-                                     std::vector<C> const& truncation, square const& slopes) {
+template <class Model, class Centre>
+typename parametric_flow<Model, Centre>::mask
+parametric_flow<Model, Centre>::short_enough(mask trying, C const& h, std::size_t order,
+                                             std::vector<C> const& truncation,
+                                             square const& slopes) {
     auto const n = truncation.size();
     // A set that rests on a kink is not carried across by short steps: there the old ones do.
     mask resting{};
@@ -71,18 +96,18 @@ parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
 }
 
 /// The tube's middle: the Taylor polynomials over s = h (1 + tau)/2, in q and tau.
-template <class Model>
-void parametric_flow<Model>::guess_tube(C const& h, std::size_t order) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::guess_tube(C const& h, std::size_t order) {
     for (std::size_t i = 0; i < path_.size(); ++i) {
         path_[i] = path_of_([&](std::size_t k) -> polynomial const& { return centre_.state(i, k); },
                             order, h);
     }
 }
 
-template <class Model>
-typename parametric_flow<Model>::mask
-parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
-                                square& w, mask& jumps) {
+template <class Model, class Centre>
+typename parametric_flow<Model, Centre>::mask
+parametric_flow<Model, Centre>::attempt(mask trying, C const& to, std::size_t order,
+                                        std::size_t flow_order, square& w, mask& jumps) {
     using namespace enclosure_detail;
     auto const n = flow_->states();
     std::size_t const K = order;
@@ -93,15 +118,14 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
         mask kinked = centre_.kinked();
         kinked |= derivative_.kinked();
         kinked &= trying;
-        for (std::size_t l = 0; l < width; ++l) {
-            if (side_by_side::test(kinked, l)) lanes_[l].rough = true;
-        }
+        meet_kink(kinked);
         trying = trying & !kinked;
         if (!side_by_side::any(trying)) return mask{};
     }
     C const h = (to - set_.time) * (1 + 4 * polynomial::unit); // not less than the length
     tails_ = false;
-    if (K > 0 && L > 1 && centre_tail_.covers() && derivative_tail_.covers()) {
+    if (!Centre::by_formula && K > 0 && L > 1 && centre_tail_.covers() &&
+        derivative_tail_.covers()) {
         mask const bounded = bound_tails(h, K, L);
         if (side_by_side::all(bounded | !trying)) {
             tails_ = true;
@@ -158,9 +182,7 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
         }
         mask const kinked = trying & tube_.kinked();
         if (side_by_side::any(kinked)) {
-            for (std::size_t l = 0; l < width; ++l) {
-                if (side_by_side::test(kinked, l)) lanes_[l].rough = true;
-            }
+            meet_kink(kinked);
             trying = trying & !kinked;
         }
         // Without series terms x(h) = x(0) + h f(b) holds for every member, jumps or not. With them
@@ -188,9 +210,7 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
             undefined = trying & !jumps & tube_.undefined();
             if (L > 1) {
                 mask const late = trying & !jumps & tube_.kinked();
-                for (std::size_t l = 0; l < width; ++l) {
-                    if (side_by_side::test(late, l)) lanes_[l].rough = true;
-                }
+                meet_kink(late);
                 trying = trying & !late;
             }
             if (side_by_side::any(undefined)) {
@@ -200,7 +220,8 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
             last = last_variation_sizes(*flow_, tube_, n, flow_power, L);
             if (K == 0)
                 trying = short_enough(trying & !jumps, h, K, share, last) | (trying & jumps);
-            mask const bounded = bound_variations(base, last, n, 8, trying & !jumps, w);
+            mask const bounded =
+                bound_variations(base, last, n, Centre::by_formula ? 8 + n : 8, trying & !jumps, w);
             mask const unbounded = trying & !jumps & !bounded;
             if (side_by_side::any(unbounded)) {
                 square growth = base;
@@ -256,8 +277,29 @@ parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std
     return proved;
 }
 
-template <class Model>
-typename parametric_flow<Model>::mask parametric_flow<Model>::perturb(mask moved, C const& to) {
+template <class Model, class Centre>
+bool parametric_flow<Model, Centre>::apply_formula(C const& to, square const& w) {
+    if constexpr (Centre::by_formula) {
+        using traits = interval_traits<interval>;
+        C const h = (to - set_.time) * (1 + 4 * polynomial::unit); // not less than the length
+        auto const length = traits::sub(traits::point(to), traits::point(set_.time));
+        if (auto const why = method_.apply(set_.time, set_.centre, length, within_step(h))) {
+            if (*why == failure_reason::unsolved_stages) note_steepest(true, w);
+            reject(true, *why, 0.5);
+            return false;
+        }
+        // The rest does not depend on the time within the step and goes into the centre; the
+        // series' own share was allowed as much.
+        std::vector<C> share(flow_->states());
+        for (std::size_t i = 0; i < share.size(); ++i) share[i] = 0.5 * method_.loss(i);
+        return short_enough(true, h, order_, share, {});
+    }
+    return true;
+}
+
+template <class Model, class Centre>
+typename parametric_flow<Model, Centre>::mask parametric_flow<Model, Centre>::perturb(mask moved,
+                                                                                      C const& to) {
     // What an input may add is small: ranges of the rates' derivatives need no polynomial in time.
     C const half = (to - set_.time) * (0.5 * (1 + 4 * polynomial::unit));
     auto const times =

@@ -25,8 +25,8 @@ namespace sivid {
 /// Writes the bounds at the end into `held_`, and those during the step into `tube_box_`.
 /// @cost  three expansions of order 1 for each state whose rate depends on it, about thirty more
 ///        where that promises something
-template <class Model>
-void parametric_flow<Model>::hold_states(mask trying, C const& h, tube_entry const& times) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::hold_states(mask trying, C const& h, tube_entry const& times) {
     constexpr double slack = 1e-12;
     auto const entry = [](C const& low, C const& high) {
         C const middle = (low + high) * 0.5;
@@ -102,9 +102,9 @@ void parametric_flow<Model>::hold_states(mask trying, C const& h, tube_entry con
 
 /// Gives the held states of a finished step their bounds, without the unknowns.
 /// @param lost  what goes into the generators
-template <class Model>
-void parametric_flow<Model>::release_states(mask moved, std::vector<polynomial>& next,
-                                            std::vector<C>& lost) {
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::release_states(mask moved, std::vector<polynomial>& next,
+                                                    std::vector<C>& lost) {
     for (std::size_t i = 0; i < held_.size(); ++i) {
         mask const held = moved & held_[i].lanes;
         if (!side_by_side::any(held)) continue;

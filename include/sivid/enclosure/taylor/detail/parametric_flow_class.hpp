@@ -29,6 +29,17 @@
 
 namespace sivid {
 
+/// The centre of a set follows the Taylor series of the solution.
+struct taylor_centre {
+    static constexpr bool by_formula = false;
+    template <class Shape>
+    taylor_centre(flow const&, enclosure_options const&, Shape const&, Shape const&) {}
+
+    [[nodiscard]] static enclosure_options const& fit(enclosure_options const& options) {
+        return options;
+    }
+};
+
 /// Carries a family of trajectories as Taylor models in its unknowns (see `parametric_set`), one
 /// proved step at a time. Stays tight over boxes in which first-order sets blow up.
 ///
@@ -51,12 +62,13 @@ namespace sivid {
 /// several bounds is evaluated.
 /// @guarantee  after each successful step, for every q and every member of the set before, the
 ///             solution lies in the set after (same q), and during the step in `swept()`.
-/// @tparam Model  of single families, or in lanes
+/// @tparam Model   of single families, or in lanes
+/// @tparam Centre  what it follows: the series above, or a formula (`runge_kutta_centre`)
 /// @cost  O(nodes K^2 products of degree D in N variables) a step, as many in N + 1 variables where
 ///        it needs a tube
 /// @ref   Makino and Berz 2003 (Taylor models for flows); Kühn 1998 (zonotopes); Zgliczynski 2002
 /// (C1)
-template <class Model = taylor_model<double>>
+template <class Model = taylor_model<double>, class Centre = taylor_centre>
 class parametric_flow {
 public:
     using C = typename Model::scalar;
@@ -74,17 +86,18 @@ public:
     parametric_flow(flow const& f, enclosure_options const& options, std::size_t variables,
                     std::size_t degree)
         : flow_(&f),
-          options_(options),
+          options_(Centre::fit(options)),
           shape_(&shape_type::of(variables, degree)),
           column_shape_(&shape_type::of(variables, (degree + 1) / 2)),
           tube_shape_(&shape_type::of(variables + 1, degree >= 5   ? 3
                                                      : degree >= 2 ? 2
                                                                    : 1)),
           path_of_(*shape_, *tube_shape_),
+          method_(f, options_, *shape_, *tube_shape_),
           set_(f.states(), *shape_),
-          centre_(f, options.order + 1, variations::by_state, *shape_),
-          derivative_(f, options.order + 1, variations::by_state, *column_shape_),
-          tube_(f, options.order + 1, variations::by_state, *tube_shape_),
+          centre_(f, options_.order + 1, variations::by_state, *shape_),
+          derivative_(f, options_.order + 1, variations::by_state, *column_shape_),
+          tube_(f, options_.order + 1, variations::by_state, *tube_shape_),
           centre_tail_(f, centre_),
           derivative_tail_(f, derivative_),
           observe_(f.observe(), 0, *shape_),
@@ -97,7 +110,7 @@ public:
           swept_(f.states()),
           room_(f.states()),
           truncation_(f.states()) {
-        if (options.order < 1)
+        if (options_.order < 1)
             throw std::invalid_argument("enclosure_options: order must be at least 1");
         if (f.uncertain()) perturbed_.emplace(f, *column_shape_);
         disturbed_.resize(f.states());
@@ -260,8 +273,13 @@ private:
     template <class Coefficient>
     [[nodiscard]] C sharpen(std::size_t i, Coefficient const& coefficient, std::size_t top,
                             C const& to, std::size_t orders, C const& beyond, polynomial& next);
+    /// A formula: whether its value is proved, and loses what is allowed, where the tube is.
+    /// @param w  of the tube
+    [[nodiscard]] bool apply_formula(C const& to, square const& w);
     /// Uncertain inputs: the lanes of a proved step for which their share is bounded as well.
     [[nodiscard]] mask perturb(mask moved, C const& to);
+    /// The next attempts of these lanes are of first order; those of a formula are shorter.
+    void meet_kink(mask lanes);
     void reject(mask lanes, failure_reason reason, C const& shorten);
     void fail(std::size_t lane, enclosure_failure why) {
         complete(why, set_, lane, *lanes_[lane].unknowns);
@@ -280,6 +298,7 @@ private:
     enclosure_options options_;
     shape_type const *shape_, *column_shape_, *tube_shape_;
     polynomials_in_time<C> path_of_;
+    Centre method_;
     set_type set_;
     expansion<polynomial> centre_;
     expansion<column_entry> derivative_;

@@ -15,9 +15,9 @@
 
 namespace sivid {
 
-template <class Model>
-std::size_t parametric_flow<Model>::sharp_orders(C const& length, std::size_t order) const {
-    if constexpr (!std::is_same_v<C, double>) {
+template <class Model, class Centre>
+std::size_t parametric_flow<Model, Centre>::sharp_orders(C const& length, std::size_t order) const {
+    if constexpr (!std::is_same_v<C, double> || Centre::by_formula) {
         return 0;
     } else {
         if (order == 0 || !sharp_pays_ || unknowns().variables > 0) return 0;
@@ -42,8 +42,8 @@ std::size_t parametric_flow<Model>::sharp_orders(C const& length, std::size_t or
     }
 }
 
-template <class Model>
-bool parametric_flow<Model>::expand_sharply(std::size_t orders) {
+template <class Model, class Centre>
+bool parametric_flow<Model, Centre>::expand_sharply(std::size_t orders) {
     if constexpr (!std::is_same_v<C, double>) {
         return false;
     } else {
@@ -63,12 +63,12 @@ bool parametric_flow<Model>::expand_sharply(std::size_t orders) {
     }
 }
 
-template <class Model>
+template <class Model, class Centre>
 template <class Coefficient>
-typename parametric_flow<Model>::C
-parametric_flow<Model>::sharpen(std::size_t i, Coefficient const& coefficient, std::size_t top,
-                                C const& to, std::size_t orders, C const& beyond,
-                                polynomial& next) {
+typename parametric_flow<Model, Centre>::C
+parametric_flow<Model, Centre>::sharpen(std::size_t i, Coefficient const& coefficient,
+                                        std::size_t top, C const& to, std::size_t orders,
+                                        C const& beyond, polynomial& next) {
     next = widened(next, beyond);
     if constexpr (!std::is_same_v<C, double>) {
         return C(0.0);

@@ -14,9 +14,9 @@
 
 namespace sivid {
 
-template <class Model>
-typename parametric_flow<Model>::mask
-parametric_flow<Model>::bound_tails(C const& h, std::size_t order, std::size_t flow_order) {
+template <class Model, class Centre>
+typename parametric_flow<Model, Centre>::mask
+parametric_flow<Model, Centre>::bound_tails(C const& h, std::size_t order, std::size_t flow_order) {
     mask const proved = centre_tail_.bound_states(centre_, h, order, false);
     for (std::size_t i = 0; i < truncation_.size(); ++i) truncation_[i] = centre_tail_.state(i);
     if (!side_by_side::any(proved)) return proved;
@@ -25,9 +25,9 @@ parametric_flow<Model>::bound_tails(C const& h, std::size_t order, std::size_t f
 
 /// The lanes in which what V has beyond its coefficients does not add much to the reach; the others
 /// try again with more of them or, if there are no more, with a shorter step.
-template <class Model>
-typename parametric_flow<Model>::mask parametric_flow<Model>::carries_well(mask trying, C const& h,
-                                                                           std::size_t flow_order) {
+template <class Model, class Centre>
+typename parametric_flow<Model, Centre>::mask
+parametric_flow<Model, Centre>::carries_well(mask trying, C const& h, std::size_t flow_order) {
     auto const n = flow_->states();
     C most{};
     for (std::size_t i = 0; i < n; ++i) {
