@@ -216,8 +216,8 @@ measured_by(identification_problem problem, std::shared_ptr<feasible_search> wit
         }
         void make(std::optional<feasibility_test>& of, std::size_t degree) {
             feasibility_test_options options;
-            options.run.degree = degree;
-            options.run.keep_going = [this] { return !keep_going || keep_going(); };
+            options.degree = degree;
+            options.keep_going = [this] { return !keep_going || keep_going(); };
             of.emplace(problem, options);
         }
         /// By polynomials of a higher degree where remainders would hide measurements.
