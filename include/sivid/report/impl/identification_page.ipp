@@ -76,8 +76,7 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
                                      [](measured_sample const& m) { return has_residual(m); });
     }
     std::string const which = "scenario " + s.name;
-    figure measured{.panels = {},
-                    .legend = time_plot_legend(s.channels),
+    figure measured{.legend = time_plot_legend(s.channels),
                     .title = (tubes ? "Measurements and proven enclosure, " : "Measurements, ") +
                              which + ".",
                     .caption = "Every bar is a measured interval" +
@@ -85,8 +84,7 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
                                                    "every instant, not only at the samples. "
                                                  : ". "} +
                                tube + reference};
-    figure against{.panels = {},
-                   .title = "The enclosure within each measured interval, " + which + ".",
+    figure against{.title = "The enclosure within each measured interval, " + which + ".",
                    .caption = "Zero is the middle of the measured interval, +1 and \xE2\x88\x92"
                               "1 its ends. An enclosure between the lines meets its measurement "
                               "for certain; one wholly beyond misses it for certain."};
@@ -119,8 +117,7 @@ inline void add_outliers(page& out, identification_view const& v) {
     out.section("Outliers");
     table allowed{.columns = {{"scenario", column_kind::symbol},
                               {"measurements", column_kind::number},
-                              {"outliers allowed", column_kind::number}},
-                  .rows = {}};
+                              {"outliers allowed", column_kind::number}}};
     for (scenario_view const& s : v.scenarios) {
         allowed.rows.push_back({s.name, count_text(s.measurements), count_text(s.outlier_budget)});
     }
@@ -128,8 +125,7 @@ inline void add_outliers(page& out, identification_view const& v) {
     table found{.columns = {{"scenario", column_kind::symbol},
                             {"channel", column_kind::symbol},
                             {"time [s]", column_kind::number},
-                            {"what is known", column_kind::note}},
-                .rows = {}};
+                            {"what is known", column_kind::note}}};
     constexpr std::size_t most = 100;
     for (outlier_view const& o : v.outliers) {
         if (found.rows.size() < most) {
@@ -154,8 +150,7 @@ inline void add_computation(page& out, identification_view const& v) {
               (v.statistics.stop_reason.empty()
                    ? ""
                    : std::string{"Why it stopped: "} + sentence(v.statistics.stop_reason)));
-    table t{.columns = {{"volume relative to the prior"}, {"proved within", column_kind::number}},
-            .rows = {}};
+    table t{.columns = {{"volume relative to the prior"}, {"proved within", column_kind::number}}};
     if (!is_empty(v.volume_inner)) {
         t.rows.push_back({"inner: proved to explain the data", percent_interval(v.volume_inner)});
     }
@@ -173,7 +168,6 @@ inline void add_computation(page& out, identification_view const& v) {
                             {"inner volume", column_kind::number},
                             {"outer volume", column_kind::number},
                             {"remark", column_kind::note}},
-                .rows = {},
                 .caption = v.comparison_note};
         for (comparison_row const& r : v.comparison) {
             if (r.chosen) {

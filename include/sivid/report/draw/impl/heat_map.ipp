@@ -6,6 +6,14 @@
 
 namespace sivid::report {
 
+SIVID_DECL double largest_value(heat_map const& m) {
+    double largest = 0;
+    for (auto const& row : m.values) {
+        for (double const v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
+    }
+    return largest;
+}
+
 SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
     double const top = o.title.empty() ? 10 : 34;
     double const pitch = 26;
@@ -22,12 +30,7 @@ SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
         span = hull(span, t);
     }
     span = axis_range(span);
-    double largest = 0;
-    for (auto const& row : m.values) {
-        for (double const v : row) {
-            largest = std::isfinite(v) ? std::max(largest, v) : largest;
-        }
-    }
+    double largest = largest_value(m);
     double const full = m.threshold > 0 ? m.threshold : 1;
     largest = std::isfinite(o.largest) ? std::max(largest, o.largest) : largest;
     // Beyond a thousand times the threshold all is one colour, so that one wild value leaves the

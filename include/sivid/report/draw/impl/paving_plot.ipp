@@ -100,19 +100,12 @@ SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_proje
         witness = witness || p.witness.has_value();
         zoom = zoom || zoom_window(p).has_value();
     }
-    std::vector<legend_entry> out;
-    auto const add = [&](bool wanted, symbol mark, std::string const& label) {
-        if (wanted) {
-            out.push_back({mark, label});
-        }
-    };
-    add(used[3], symbol::inside, words.inside);
-    add(used[2], symbol::undecided, "undecided");
-    add(used[1], symbol::pending, "pending: not looked at closely");
-    add(true, symbol::outside, words.outside);
-    add(witness, symbol::witness, words.point);
-    add(zoom, symbol::window, "what the closer look shows");
-    return out;
+    return legend_of({{used[3], {symbol::inside, words.inside}},
+                      {used[2], {symbol::undecided, "undecided"}},
+                      {used[1], {symbol::pending, "pending: not looked at closely"}},
+                      {true, {symbol::outside, words.outside}},
+                      {witness, {symbol::witness, words.point}},
+                      {zoom, {symbol::window, "what the closer look shows"}}});
 }
 
 SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options const& o) {
@@ -121,8 +114,7 @@ SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options 
     axes const a{{p.x.label, p.x.unit, is_empty(o.x_window) ? p.x.bounds : o.x_window},
                  {p.y.label, p.y.unit, is_empty(o.y_window) ? p.y.bounds : o.y_window},
                  {.width = o.width, .height = o.height, .title = o.title, .grid = false}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    a.open(out);
     out.rect(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top(),
              {.fill = palette::outside});
 
@@ -160,8 +152,7 @@ SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options 
     if (p.witness && is_finite(*p.witness)) {
         draw_witness(out, a.px(p.witness->x), a.py(p.witness->y), "witness: a verified point");
     }
-    out.close();
-    a.draw_frame(out);
+    a.close(out);
     return out;
 }
 

@@ -7,20 +7,10 @@
 namespace sivid::report {
 
 SIVID_DECL std::vector<legend_entry> plane_plot_legend(plane_series const& s) {
-    std::vector<legend_entry> out;
-    if (!s.tube.empty()) {
-        out.push_back({symbol::tube, "proven enclosure of the motion"});
-    }
-    if (!s.measured.empty()) {
-        out.push_back({symbol::measured_box, "measured position"});
-    }
-    if (!s.reference.empty()) {
-        out.push_back({symbol::reference, "reference, not validated"});
-    }
-    if (!s.poses.empty()) {
-        out.push_back({symbol::heading, "heading on the reference"});
-    }
-    return out;
+    return legend_of({{!s.tube.empty(), {symbol::tube, "proven enclosure of the motion"}},
+                      {!s.measured.empty(), {symbol::measured_box, "measured position"}},
+                      {!s.reference.empty(), {symbol::reference, "reference, not validated"}},
+                      {!s.poses.empty(), {symbol::heading, "heading on the reference"}}});
 }
 
 namespace detail {
@@ -75,8 +65,7 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
     axes const a{{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
                  {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
                  {.width = o.width, .height = o.height, .title = o.title, .equal_aspect = true}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    a.open(out);
     constexpr std::size_t most_boxes = 4000;
     path_data boxes;
     for (plane_box const& b : detail::joined(s.tube, most_boxes)) {
@@ -119,11 +108,9 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
                  {.fill = palette::paper, .opacity = 0.8}, 3);
         out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
     }
-    out.close();
-    a.draw_frame(out);
+    a.close(out);
     if (boxes.empty() && measured.empty() && line.empty()) {
-        out.text((a.left() + a.right()) / 2, (a.top() + a.bottom()) / 2, "no data",
-                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
+        a.say(out, "no data");
     }
     return out;
 }

@@ -19,7 +19,6 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
                         {"width / prior", column_kind::number},
                         {"witness, about", column_kind::number},
                         {"meaning", column_kind::note}},
-            .rows = {},
             .caption = "The hull contains every value that can explain the data; its ends are "
                        "rounded outward."};
     for (parameter_view const& p : v.parameters) {
@@ -59,8 +58,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
                             {"unit"},
                             {"over the prior", column_kind::number},
                             {"hull (proved)", column_kind::number},
-                            {"remark", column_kind::note}},
-                .rows = {}};
+                            {"remark", column_kind::note}}};
         for (combination_view const& k : v.combinations) {
             c.rows.push_back({formula_text(k.formula), unit_text(k.unit),
                               is_empty(k.prior) ? "" : outward_text(k.prior), outward_text(k.hull),
@@ -73,8 +71,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
 SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, std::string title,
                                 std::string caption, paving_words const& words) {
     // The zoom stands beside or below its whole view in the same order, so panels go in pairs.
-    figure f{.panels = {},
-             .legend = paving_plot_legend(pavings, words),
+    figure f{.legend = paving_plot_legend(pavings, words),
              .title = std::move(title),
              .caption = std::move(caption),
              .layout = panel_layout::pair,
