@@ -172,9 +172,7 @@ private:
             x_ticks_ = nice_ticks(x_.bounds, columns);
             double const room =
                 (right_ - left_) / std::max<double>(1, static_cast<double>(x_ticks_.ticks.size()));
-            if (widest(x_ticks_) + 8 <= room) {
-                break;
-            }
+            if (widest(x_ticks_) + 8 <= room) break;
         }
     }
     void make_aspect_equal() {
@@ -183,9 +181,7 @@ private:
         double const x_size = approximate_width(x_.bounds);
         double const y_size = approximate_width(y_.bounds);
         double const per_unit = std::min(wide / x_size, high / y_size);
-        if (!std::isfinite(per_unit) || per_unit <= 0) {
-            return;
-        }
+        if (!std::isfinite(per_unit) || per_unit <= 0) return;
         x_.bounds = with_margin(x_.bounds, std::max(0.0, (wide / per_unit / x_size - 1) / 2));
         y_.bounds = with_margin(y_.bounds, std::max(0.0, (high / per_unit / y_size - 1) / 2));
     }

@@ -108,12 +108,8 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
 
 inline void add_outliers(page& out, identification_view const& v) {
     std::size_t budget = 0;
-    for (scenario_view const& s : v.scenarios) {
-        budget += s.outlier_budget;
-    }
-    if (v.outliers.empty() && budget == 0) {
-        return;
-    }
+    for (scenario_view const& s : v.scenarios) budget += s.outlier_budget;
+    if (v.outliers.empty() && budget == 0) return;
     out.section("Outliers");
     table allowed{.columns = {{"scenario", column_kind::symbol},
                               {"measurements", column_kind::number},
@@ -170,9 +166,7 @@ inline void add_computation(page& out, identification_view const& v) {
                             {"remark", column_kind::note}},
                 .caption = v.comparison_note};
         for (comparison_row const& r : v.comparison) {
-            if (r.chosen) {
-                c.chosen_row = c.rows.size();
-            }
+            if (r.chosen) c.chosen_row = c.rows.size();
             c.rows.push_back({r.name, r.seconds ? duration_text(*r.seconds) : "",
                               r.boxes ? count_text(*r.boxes) : "",
                               r.integrations ? count_text(*r.integrations) : "",
@@ -192,9 +186,7 @@ inline void add_why_little(page& out, identification_view const& v) {
 }
 
 inline void add_identifiability(page& out, identification_view const& v) {
-    if (v.identifiability.empty()) {
-        return;
-    }
+    if (v.identifiability.empty()) return;
     out.section("What such data can tell");
     out.prose(std::string{"Which unknowns the measured outputs determine, and which only in "
                           "combination, whatever the measured values"} +
@@ -228,9 +220,7 @@ SIVID_DECL page identification_page(identification_view const& v) {
     if (drawn) {
         out.section("Measurements and model");
         for (scenario_view const& s : v.scenarios) {
-            if (!s.channels.empty() || s.plane) {
-                detail::add_scenario(out, v, s);
-            }
+            if (!s.channels.empty() || s.plane) detail::add_scenario(out, v, s);
         }
     }
     detail::add_outliers(out, v);

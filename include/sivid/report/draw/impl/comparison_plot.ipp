@@ -10,9 +10,8 @@ namespace detail {
 
 SIVID_DECL channel_series plain_series(comparison_series const& c) {
     channel_series out{c.name, c.unit, c.measured, c.tube, c.after};
-    for (point const& p : c.before) {
+    for (point const& p : c.before)
         if (is_finite(p)) out.tube.push_back({p.x, p.x, {p.y, p.y}});
-    }
     return out;
 }
 

@@ -101,9 +101,7 @@ SIVID_DECL svg draw_missing_rate(missing_rate_series const& s, time_plot_options
     }
     detail::draw_reference(out, a, plain.reference, line_after_paint);
     a.close(out);
-    if (s.estimate.empty() && s.certified.empty()) {
-        a.say(out, "nothing known", a.top() + 16);
-    }
+    if (s.estimate.empty() && s.certified.empty()) a.say(out, "nothing known", a.top() + 16);
     return out;
 }
 

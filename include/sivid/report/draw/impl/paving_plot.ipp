@@ -16,9 +16,7 @@ SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p, d
                 w.y = hull(w.y, intersect(b.y, whole_y));
             }
         }
-        if (is_empty(w.x) || is_empty(w.y)) {
-            continue;
-        }
+        if (is_empty(w.x) || is_empty(w.y)) continue;
         w.x = intersect(with_margin(axis_range(w.x), 0.08), whole_x);
         w.y = intersect(with_margin(axis_range(w.y), 0.08), whole_y);
         double const share = approximate_width(w.x) / approximate_width(whole_x) *
@@ -94,9 +92,7 @@ SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_proje
     bool used[4] = {true, false, false, false};
     bool witness = false, zoom = false;
     for (paving_projection const& p : all) {
-        for (projected_box const& b : p.boxes) {
-            used[static_cast<std::size_t>(b.verdict)] = true;
-        }
+        for (projected_box const& b : p.boxes) used[static_cast<std::size_t>(b.verdict)] = true;
         witness = witness || p.witness.has_value();
         zoom = zoom || zoom_window(p).has_value();
     }
@@ -121,9 +117,7 @@ SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options 
     path_data shapes[4];
     for (std::size_t cells = std::max<std::size_t>(o.finest, 4);; cells /= 2) {
         region_raster const raster = project_paving(p.boxes, a.x_bounds(), a.y_bounds(), cells);
-        for (path_data& d : shapes) {
-            d = {};
-        }
+        for (path_data& d : shapes) d = {};
         for (region_rect const& r : merge_cells(raster)) {
             double const x = a.px(raster.xs[r.left]), y = a.py(raster.ys[r.high]);
             shapes[static_cast<std::size_t>(r.what)].rect(x, y, a.px(raster.xs[r.right]) - x,

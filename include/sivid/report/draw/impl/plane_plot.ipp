@@ -46,17 +46,11 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
             ys = hull(ys, b.y);
         }
     };
-    for (plane_box const& b : s.measured) {
-        include(b);
-    }
-    for (point const& p : s.reference) {
-        include({{p.x, p.x}, {p.y, p.y}});
-    }
+    for (plane_box const& b : s.measured) include(b);
+    for (point const& p : s.reference) include({{p.x, p.x}, {p.y, p.y}});
     // A tube that bursts must not hide the measurements.
     range const x_core = xs, y_core = ys;
-    for (plane_box const& b : s.tube) {
-        include(b);
-    }
+    for (plane_box const& b : s.tube) include(b);
     if (!is_empty(x_core)) {
         double const room = std::max({approximate_width(x_core), approximate_width(y_core), 1e-9});
         xs = intersect(xs, {x_core.lo - room, x_core.hi + room});
@@ -69,9 +63,7 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
     constexpr std::size_t most_boxes = 4000;
     path_data boxes;
     for (plane_box const& b : detail::joined(s.tube, most_boxes)) {
-        if (!is_empty(b.x) && !is_empty(b.y)) {
-            detail::add_box(boxes, a, b, 1.2);
-        }
+        if (!is_empty(b.x) && !is_empty(b.y)) detail::add_box(boxes, a, b, 1.2);
     }
     // One path: where boxes overlap, the colour does not add up.
     out.path(boxes,
@@ -79,17 +71,13 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
     path_data line;
     bool down = false;
     for (point const& p : s.reference) {
-        if (is_finite(p)) {
-            down ? line.line(a.px(p.x), a.py(p.y)) : line.move(a.px(p.x), a.py(p.y));
-        }
+        if (is_finite(p)) down ? line.line(a.px(p.x), a.py(p.y)) : line.move(a.px(p.x), a.py(p.y));
         down = is_finite(p);
     }
     out.path(line, {.stroke = palette::truth, .width = 1.5, .dash = "5 3"});
     path_data measured;
     for (plane_box const& b : detail::joined(s.measured, most_boxes)) {
-        if (is_finite(b.x) && is_finite(b.y)) {
-            detail::add_box(measured, a, b, 3);
-        }
+        if (is_finite(b.x) && is_finite(b.y)) detail::add_box(measured, a, b, 3);
     }
     out.path(measured, {.stroke = palette::measurement, .width = 1});
     path_data arrows;
@@ -109,9 +97,7 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
         out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
     }
     a.close(out);
-    if (boxes.empty() && measured.empty() && line.empty()) {
-        a.say(out, "no data");
-    }
+    if (boxes.empty() && measured.empty() && line.empty()) a.say(out, "no data");
     return out;
 }
 

@@ -52,9 +52,7 @@ SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const
     path_data band;
     path_data edge;
     auto const flush = [&] {
-        if (run.empty()) {
-            return;
-        }
+        if (run.empty()) return;
         band.move(run.front().left, run.front().top);
         edge.move(run.front().left, run.front().top);
         for (column const& c : run) {
@@ -70,16 +68,12 @@ SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const
         run.clear();
     };
     for (tube_piece const& t : tube) {
-        if (is_empty(t.value) || !(t.from <= t.to)) {
-            continue;
-        }
+        if (is_empty(t.value) || !(t.from <= t.to)) continue;
         column c{a.px(t.from), a.px(t.to), a.py(t.value.hi), a.py(t.value.lo)};
         double const thin = std::max(0.0, 1.2 - (c.bottom - c.top)) / 2;
         c.top -= thin;
         c.bottom += thin;
-        if (!run.empty() && std::abs(c.left - run.back().right) > 0.02) {
-            flush();
-        }
+        if (!run.empty() && std::abs(c.left - run.back().right) > 0.02) flush();
         if (!run.empty() && run.back().right - run.back().left < 0.5) {
             run.back() = {run.back().left, c.right, std::min(c.top, run.back().top),
                           std::max(c.bottom, run.back().bottom)};
@@ -103,9 +97,7 @@ SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const
             continue;
         }
         double const x = a.px(p.x), y = a.py(p.y);
-        if (pen_down && std::abs(x - last_x) + std::abs(y - last_y) < 0.5) {
-            continue;
-        }
+        if (pen_down && std::abs(x - last_x) + std::abs(y - last_y) < 0.5) continue;
         pen_down ? d.line(x, y) : d.move(x, y);
         pen_down = true;
         last_x = x;
@@ -199,9 +191,7 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < c.measured.size(); ++i) {
         measured_sample const& m = c.measured[i];
-        if (!has_residual(m) || (m.state == sample_state::regular && i % stride != 0)) {
-            continue;
-        }
+        if (!has_residual(m) || (m.state == sample_state::regular && i % stride != 0)) continue;
         ++drawn;
         range const r = approximate_residual(m);
         double const top = a.py(r.hi), low = a.py(r.lo), x = a.px(m.time);

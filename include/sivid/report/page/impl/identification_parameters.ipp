@@ -7,9 +7,7 @@
 namespace sivid::report::detail {
 
 SIVID_DECL void add_parameters(page& out, identification_view const& v) {
-    if (v.parameters.empty()) {
-        return;
-    }
+    if (v.parameters.empty()) return;
     out.section("Parameters");
     std::vector<interval_row> rows;
     table t{.columns = {{"parameter", column_kind::symbol},
@@ -25,9 +23,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
         interval_row row{p.name, p.unit, p.prior, p.hull};
         if (v.witness) {
             for (named_estimate const& w : v.witness->parameters) {
-                if (w.name == p.name) {
-                    row.witness = w.value;
-                }
+                if (w.name == p.name) row.witness = w.value;
             }
         }
         double const share = share_of_prior(p);
@@ -43,9 +39,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
     }
     std::vector<legend_entry> legend{{symbol::prior, "prior"},
                                      {symbol::hull, "hull: all that can explain the data"}};
-    if (v.witness) {
-        legend.push_back({symbol::witness, "witness"});
-    }
+    if (v.witness) legend.push_back({symbol::witness, "witness"});
     out.add(figure{.panels = {draw_interval_chart(rows, {.width = 1000, .title = ""})},
                    .legend = legend,
                    .title = "What the data leave of the prior.",
@@ -94,9 +88,7 @@ SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, s
 }
 
 SIVID_DECL void add_pavings(page& out, identification_view const& v) {
-    if (v.pavings.empty()) {
-        return;
-    }
+    if (v.pavings.empty()) return;
     out.section("The set of parameters that explain the data");
     bool const anything =
         std::any_of(v.pavings.begin(), v.pavings.end(), [](paving_projection const& p) {
