@@ -4,10 +4,8 @@
 
 #include <sivid/io/dataset/impl/dataset_digest.ipp>
 #include <sivid/io/dataset/impl/model_names.ipp>
-#include <sivid/io/impl/checkpoint.ipp>
 #include <sivid/io/impl/checkpoint_reader.ipp>
 #include <sivid/io/impl/dataset.ipp>
-#include <sivid/io/impl/dataset_writer.ipp>
 #include <sivid/io/impl/decision_json.ipp>
 #include <sivid/io/impl/diagnosis_json.ipp>
 #include <sivid/io/impl/explaining_motion.ipp>

@@ -2,7 +2,6 @@
 #ifndef SIVID_IO_CHECKPOINT_HPP
 #define SIVID_IO_CHECKPOINT_HPP
 
-#include <sivid/compiled.hpp>
 #include <sivid/io/result/certificates_csv.hpp>
 #include <sivid/io/text/durable_file.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -15,6 +14,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace sivid {
@@ -26,14 +26,41 @@ inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-6";
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
 
-/// Lines of words; doubles as exact hexadecimal text.
+/// The size of a list whose elements follow on lines of their own; a reader gives it that size.
+template <class List>
+struct size_of {
+    List& list;
+};
+template <class List>
+size_of(List&) -> size_of<List>;
+
+/// Writes lines of words; doubles as exact hexadecimal text.
 class checkpoint_lines {
 public:
     template <class... Values>
     void operator()(std::string_view word, Values const&... values) {
-        text_.append(word);
+        text_ += word;
+        rest(values...);
+    }
+    /// Begins a line with one of two words. @returns whether there is something
+    bool begin(auto const& what, std::string_view there, std::string_view nothing) {
+        text_ += what ? there : nothing;
+        return what.has_value();
+    }
+    void begin(box_verdict v) { text_ += verdict_letters[static_cast<std::size_t>(v)]; }
+    /// Goes on with the line.
+    template <class... Values>
+    void more(Values const&... values) {
         (put(values), ...);
+    }
+    template <class... Values>
+    void rest(Values const&... values) {
+        more(values...);
         text_ += '\n';
+    }
+    void certificates(exclusion_proof const& proof) {
+        (*this)("proof", proof.size());
+        (*this)(certificates_csv(proof));
     }
     [[nodiscard]] std::string const& text() const { return text_; }
 
@@ -48,56 +75,66 @@ private:
         for (double const x : list) put(x);
     }
     void put(box const& x) {
-        for (auto const& side : x) {
-            put(side.lower());
-            put(side.upper());
-        }
+        for (auto const& side : x) more(side.lower(), side.upper());
+    }
+    template <class List>
+    void put(size_of<List> const& of) {
+        put(of.list.size());
     }
 
     std::string text_;
 };
 
-inline void put(checkpoint_lines& line, approximate_fit const& fit) {
-    line("guess", fit.starts.size(), fit.inflation, fit.squares);
-    line("parameters", fit.parameters);
-    for (auto const& x : fit.starts) line("start", x);
-    for (auto const& r : fit.residuals) line("residuals", r);
-}
-
-inline void put(checkpoint_lines& line, window_contraction const& w) {
-    line("windows", w.starts.size(), w.empty() ? 1 : 0, w.rounds, w.windows, w.longest, w.seconds);
-    line("slower_inputs", w.input_period, w.integrations);
-    for (auto const& x : w.starts) line("from", x);
-    if (!w.empty()) line("rest", w.rest);
-}
-
-inline void put(checkpoint_lines& line, search_state const& s) {
+/// The lines of a state in their order, for who writes and who reads them.
+template <class Lines, class State>
+void list_state(Lines& line, State& state) {
+    line("asked", state.problem);
+    line("spent", state.seconds);
+    if (line.begin(state.guess, "guess", "no_guess")) {
+        auto& fit = *state.guess;
+        line.rest(size_of{fit.starts}, fit.inflation, fit.squares);
+        line("parameters", fit.parameters);
+        for (auto& x : fit.starts) line("start", x);
+        if constexpr (!std::is_const_v<State>) fit.residuals.resize(fit.starts.size());
+        for (auto& r : fit.residuals) line("residuals", r);
+    } else {
+        line.rest();
+    }
+    if (line.begin(state.windows, "windows", "no_windows")) {
+        auto& w = *state.windows;
+        bool empty = w.empty();
+        line.rest(size_of{w.starts}, empty, w.rounds, w.windows, w.longest, w.seconds);
+        line("slower_inputs", w.input_period, w.integrations);
+        for (auto& x : w.starts) line("from", x);
+        if (!empty) line("rest", w.rest);
+    } else {
+        line.rest();
+    }
+    auto& s = state.search;
     line("prior", s.prior);
     line("whole", s.whole);
     line("last_hull", s.last_hull);
-    line("counters", s.pushed, s.tested, s.cost, s.batches, s.accuracy_reached ? 1 : 0,
-         s.measured_at, s.rested ? 1 : 0, s.next_look);
+    line("counters", s.pushed, s.tested, s.cost, s.batches, s.accuracy_reached, s.measured_at,
+         s.rested, s.next_look);
     line("numbers", s.waiting_volume, s.seconds);
-    line("paved", s.paved.size());
-    for (auto const& b : s.paved) {
-        line(verdict_letters.substr(static_cast<std::size_t>(b.verdict), 1), b.set);
+    line("paved", size_of{s.paved});
+    for (auto& b : s.paved) {
+        line.begin(b.verdict);
+        line.rest(b.set);
     }
-    line("lessons", s.lessons.size());
-    for (auto const& boxes : s.lessons) {
-        line("lesson", boxes.size());
-        for (auto const& x : boxes) line("about", x);
+    line("lessons", size_of{s.lessons});
+    for (auto& boxes : s.lessons) {
+        line("lesson", size_of{boxes});
+        for (auto& x : boxes) line("about", x);
     }
-    line("waiting", s.waiting.size());
-    for (auto const& w : s.waiting) {
-        if (w.known) {
-            line("knows", w.known->lesson, w.known->place, w.known->bytes, w.volume, w.number,
-                 w.set);
-        } else {
-            line("new", w.volume, w.number, w.set);
-        }
+    line("waiting", size_of{s.waiting});
+    for (auto& w : s.waiting) {
+        if (line.begin(w.known, "knows", "new"))
+            line.more(w.known->lesson, w.known->place, w.known->bytes);
+        line.rest(w.volume, w.number, w.set);
     }
-    line("proof", s.proof.size());
-    line(certificates_csv(s.proof));
+    line.certificates(s.proof);
+    line("end");
 }
 
 } // namespace io_detail
@@ -109,21 +146,8 @@ inline void put(checkpoint_lines& line, search_state const& s) {
                                                  std::string const& problem) {
     io_detail::checkpoint_lines line;
     line("version", version);
-    line("problem", std::string_view{problem});
-    line("asked", std::string_view{state.problem});
-    line("spent", state.seconds);
-    if (state.guess) {
-        put(line, *state.guess);
-    } else {
-        line("no_guess");
-    }
-    if (state.windows) {
-        put(line, *state.windows);
-    } else {
-        line("no_windows");
-    }
-    put(line, state.search);
-    line("end");
+    line("problem", problem);
+    list_state(line, state);
     auto const& body = line.text();
     std::string text{io_detail::checkpoint_format};
     return text.append("\nsha256 ").append(sha256(body)).append(1, '\n').append(body);
@@ -132,13 +156,11 @@ inline void put(checkpoint_lines& line, search_state const& s) {
 /// Writes a checkpoint so that a kill at any moment, or a loss of power, leaves this one or the one
 /// before.
 /// @throws output_error
-SIVID_DECL void write_checkpoint(std::filesystem::path const& file,
-                                 identification_state const& state, std::string const& problem);
+inline void write_checkpoint(std::filesystem::path const& file, identification_state const& state,
+                             std::string const& problem) {
+    write_durably(file, checkpoint_text(state, problem));
+}
 
 } // namespace sivid
-
-#ifndef SIVID_COMPILED
-#include <sivid/io/impl/checkpoint.ipp>
-#endif
 
 #endif // SIVID_IO_CHECKPOINT_HPP

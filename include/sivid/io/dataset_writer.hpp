@@ -2,7 +2,6 @@
 #ifndef SIVID_IO_DATASET_WRITER_HPP
 #define SIVID_IO_DATASET_WRITER_HPP
 
-#include <sivid/compiled.hpp>
 #include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/file_set.hpp>
@@ -141,20 +140,26 @@ namespace sivid {
 /// @given  as read_dataset returns it: one interpolation in a scenario, indices within the model's
 /// (trusted)
 /// @throws output_error  as `file_set::add` and `measurements_csv`
-SIVID_DECL void add_dataset(file_set& files, dataset const& data, model_names const& model);
+inline void add_dataset(file_set& files, dataset const& data, model_names const& model) {
+    for (auto const& s : data.scenarios) {
+        files.add(s.name + ".inputs.csv", inputs_csv(s, model));
+        files.add(s.name + ".measurements.csv", measurements_csv(s, model));
+    }
+    files.add("dataset.json", dataset_json(data, model));
+}
 
 /// Stores a data set as a folder in the format sivid-dataset-1; read_dataset gives the same value
 /// back. All files take their names together (`file_set`): a full disk leaves what was there, and a
 /// run that was killed leaves nothing that reads as complete.
 /// @given  as for `add_dataset`
 /// @throws output_error  also as `measurements_csv`; nothing has changed then
-SIVID_DECL void write_dataset(dataset const& data, model_names const& model,
-                              std::filesystem::path const& folder);
+inline void write_dataset(dataset const& data, model_names const& model,
+                          std::filesystem::path const& folder) {
+    file_set files(folder);
+    add_dataset(files, data, model);
+    files.commit();
+}
 
 } // namespace sivid
-
-#ifndef SIVID_COMPILED
-#include <sivid/io/impl/dataset_writer.ipp>
-#endif
 
 #endif // SIVID_IO_DATASET_WRITER_HPP

@@ -4,6 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/explaining_motion.hpp>
+#include <sivid/io/result/stored_identification.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/paving/identify.hpp>
@@ -44,9 +45,7 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
 
 /// One row for each box that is not proved outside.
 inline std::string paving_csv(std::vector<std::string> const& names, subpaving const& paving) {
-    std::string text = "verdict";
-    for (auto const& name : names) text += std::string{","} + name + "_lower," + name + "_upper";
-    text += "\n";
+    auto text = paving_headings(names) + "\n";
     for (auto const& b : paving.boxes()) {
         if (b.verdict == box_verdict::outside) continue;
         text += to_string(b.verdict);

@@ -23,7 +23,7 @@ TEST_CASE("axes: the ends of the ranges meet the frame") {
 TEST_CASE("axes: the drawing says where its values are") {
     axes const a{{"t", "s", {0, 3}}, {"u", "m/s^2", {-1, 2}}, {.width = 300, .height = 200}};
     svg s{300, 200, "u"};
-    a.draw_frame(s);
+    a.close(s);
     std::string const left = coordinate(a.left()), right = coordinate(a.right());
     CHECK_THAT(s.str(),
                ContainsSubstring(" data-x=\"" + left + " " + right + " 0 3\" data-x-name=\"t\""));
@@ -44,7 +44,7 @@ TEST_CASE("axes: equal aspect makes one unit equally long and keeps the data in 
 TEST_CASE("axes: never a single tick on the upright axis where there is room for more") {
     axes const a{{"t", "s", {0, 1}}, {"v", "m/s", {-0.42, 0.42}}, {.height = 230}};
     svg out{360, 230, "test"};
-    a.draw_frame(out);
+    a.close(out);
     CHECK_THAT(out.str(), ContainsSubstring(">0.2</text>"));
 }
 
@@ -55,8 +55,8 @@ TEST_CASE("axes: degenerate ranges and hostile labels still give a drawing") {
             axes const a{
                 {"<x>", "\"", r}, {"y&", "m^2", r}, {.title = "<t>", .equal_aspect = equal}};
             svg out{360, 240, "test"};
-            a.draw_ground(out);
-            a.draw_frame(out);
+            a.open(out);
+            a.close(out);
             CHECK(sivid_tests::markup_error(out.str()) == "");
             CHECK(a.left() < a.right());
         }

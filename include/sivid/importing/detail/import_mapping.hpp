@@ -77,6 +77,9 @@ struct source_form {
     bool check_sums = false;         ///< serial: each line ends with *HHHH, its crc16
     break_policy gap = break_policy::refuse, restart = break_policy::refuse;
 
+    [[nodiscard]] bool is_missing(std::string const& cell) const {
+        return cell.empty() || std::find(missing.begin(), missing.end(), cell) != missing.end();
+    }
     [[nodiscard]] friend bool operator==(source_form const&, source_form const&) = default;
 };
 

@@ -26,10 +26,7 @@ public:
 
     [[nodiscard]] import_mapping read() {
         auto const root = read_json(file_);
-        if (root.at("format").string() != "sivid-mapping-1")
-            root.at("format").fail(
-                text_of("unknown format ", in_quotes(root.at("format").string())),
-                "this version reads sivid-mapping-1");
+        mapping_entries::require_format(root, "sivid-mapping-1");
         root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
                          "effects", "defaults", "scenarios"});
         require_mapping_keys(root);
@@ -38,12 +35,8 @@ public:
         result.id = root.at("id").string();
         result.model = root.at("model").string();
         read_constants(root, result);
-        auto const& fraction = root.at("max_outlier_fraction");
-        result.max_outlier_fraction = fraction.number();
-        if (result.max_outlier_fraction.is_negative() ||
-            !(result.max_outlier_fraction < *exact_decimal::parse("1")))
-            fraction.fail("the fraction is outside [0, 1)",
-                          "state the share of outliers, such as 0.05");
+        result.max_outlier_fraction =
+            mapping_entries::outlier_fraction(root.at("max_outlier_fraction"));
         if (auto const* list = root.find("effects")) result.effects = read_dataset_effects(*list);
         if (auto const* d = root.find("defaults")) {
             d->allow_only({"role", "file", "source", "time", "duration", "interpolation", "inputs",
@@ -116,11 +109,8 @@ private:
             need(entry, "time")
                 .fail("a log that is split has no common offset of the time",
                       "state \"offset\": \"first\"");
-        if (auto const* duration = either(entry, "duration")) {
-            result.duration = duration->number();
-            if (!(*nearest(*result.duration) > 0))
-                duration->fail("the duration is not above 0", "state it in seconds");
-        }
+        if (auto const* duration = either(entry, "duration"))
+            result.duration = mapping_entries::duration(*duration);
         if (auto const* between = either(entry, "interpolation");
             between && between->is_second_of("linear", "hold"))
             result.between = interpolation::hold;

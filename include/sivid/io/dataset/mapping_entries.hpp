@@ -2,13 +2,18 @@
 #ifndef SIVID_IO_DATASET_MAPPING_ENTRIES_HPP
 #define SIVID_IO_DATASET_MAPPING_ENTRIES_HPP
 
+#include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/text/json_document.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 /// The small entries of a mapping or a data set: names, ranges, counts. Each either gives what
 /// it says or throws input_error with the entry's pointer.
@@ -30,14 +35,30 @@ namespace sivid::mapping_entries {
 }
 
 /// [lower, upper] with lower <= upper.
-[[nodiscard]] inline stated_range range(json_value const& entry) {
-    auto const& ends = entry.elements();
-    if (ends.size() != 2) entry.fail("not two numbers", "write [lower, upper]");
-    auto const lower = ends[0].number(), upper = ends[1].number();
-    if (upper < lower) entry.fail("lower is above upper", "write [lower, upper]");
+/// @param what  it is, for messages
+[[nodiscard]] inline std::pair<exact_decimal, exact_decimal> ends(json_value const& entry,
+                                                                  std::string_view what = "range") {
+    auto const& all = entry.elements();
+    if (all.size() != 2)
+        entry.fail(
+            text_of("the ", what, " has ", std::to_string(all.size()), " numbers instead of 2"),
+            "write [lower, upper]");
+    std::pair const result{all[0].number(), all[1].number()};
+    if (result.second < result.first)
+        entry.fail(text_of("lower is above upper: the ", what, " [", result.first.text(), ", ",
+                           result.second.text(), "] is empty"),
+                   "write [lower, upper]");
+    return result;
+}
+
+/// The same, of what is physically possible.
+[[nodiscard]] inline stated_range range(json_value const& entry, std::string_view what = "range") {
+    auto const [lower, upper] = ends(entry, what);
     auto const enclosure = enclose(lower, upper);
     if (!enclosure || mag(*enclosure) > farthest_range)
-        entry.fail("the range reaches beyond 1e100", "state what is physically possible");
+        entry.fail(
+            text_of("the ", what, " [", lower.text(), ", ", upper.text(), "] reaches beyond 1e100"),
+            "state what is physically possible");
     return {lower, upper, *enclosure};
 }
 
@@ -68,6 +89,51 @@ namespace sivid::mapping_entries {
     auto const x = entry.number();
     if (!x.is_positive() || !(*nearest(x) > 0)) entry.fail("not above 0", remedy);
     return x;
+}
+
+/// A duration [s].
+[[nodiscard]] inline exact_decimal duration(json_value const& entry) {
+    auto const x = entry.number();
+    if (!(*nearest(x) > 0)) entry.fail("the duration is not above 0", "state it in seconds");
+    return x;
+}
+
+/// The share of measurements that may violate their bounds.
+[[nodiscard]] inline exact_decimal outlier_fraction(json_value const& entry) {
+    auto const x = entry.number();
+    if (x.is_negative() || !(x < *exact_decimal::parse("1")))
+        entry.fail(text_of("the fraction ", x.text(), " is outside [0, 1)"),
+                   "state the share of outliers, such as 0.05");
+    return x;
+}
+
+/// The name of a scenario, which files bear.
+[[nodiscard]] inline std::string file_name(json_value const& entry) {
+    auto const& text = entry.string();
+    if (text.find_first_of("/\\") != std::string::npos || text.front() == '.')
+        entry.fail(text_of("the name ", in_quotes(text), " cannot be a file name"),
+                   "use letters, digits, - and _");
+    return text;
+}
+
+/// The index of a quantity of the model.
+/// @param what  it is, for messages
+[[nodiscard]] inline std::size_t index_of(std::vector<name_unit> const& list,
+                                          std::string const& name, json_value const& entry,
+                                          std::string_view what) {
+    auto const index = sivid::index_of(list, name);
+    if (!index)
+        entry.fail(text_of("unknown ", what, " ", in_quotes(name)),
+                   text_of("the model has: ", joined_names(list)));
+    return *index;
+}
+
+/// Refuses a file of another format: it may have other keys.
+inline void require_format(json_value const& root, std::string const& format) {
+    auto const& own = root.at("format");
+    if (own.string() != format)
+        own.fail(text_of("unknown format ", in_quotes(own.string())),
+                 "this version reads " + format);
 }
 
 } // namespace sivid::mapping_entries

@@ -6,6 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/dataset/detail/dataset_tables.hpp>
+#include <sivid/io/dataset/mapping_entries.hpp>
 #include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/dataset_value.hpp>
@@ -33,11 +34,7 @@ public:
         auto const root = read_json(folder_ / "dataset.json");
         root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
                          "scenarios", "effects", "assumptions"});
-        // The format first: another version may have other keys, another model other names.
-        if (root.at("format").string() != "sivid-dataset-1")
-            root.at("format").fail(
-                text_of("unknown format ", in_quotes(root.at("format").string())),
-                "this version reads sivid-dataset-1");
+        mapping_entries::require_format(root, "sivid-dataset-1");
         dataset result;
         result.id = root.at("id").string();
         result.model = root.at("model").string();
@@ -46,7 +43,8 @@ public:
                                   "known here: " + model_.name);
         read_parameters(root.at("parameters"), result);
         if (auto const* fixed = root.find("fixed")) read_fixed(*fixed, result);
-        read_fraction(root.at("max_outlier_fraction"), result);
+        result.max_outlier_fraction =
+            mapping_entries::outlier_fraction(root.at("max_outlier_fraction"));
         read_scenarios(root.at("scenarios"), result);
         if (auto const* list = root.find("effects")) result.effects = read_dataset_effects(*list);
         if (auto const* list = root.find("assumptions"))
@@ -56,11 +54,7 @@ public:
 
 private:
     [[nodiscard]] std::size_t constant(json_value const& entry, std::string const& name) const {
-        auto const index = index_of(model_.constants, name);
-        if (!index)
-            entry.fail(text_of("unknown constant ", in_quotes(name)),
-                       text_of("the model has: ", joined_names(model_.constants)));
-        return *index;
+        return mapping_entries::index_of(model_.constants, name, entry, "constant");
     }
 
     void read_parameters(json_value const& list, dataset& result) const {
@@ -76,7 +70,7 @@ private:
                                      " differs from the model's ", in_quotes(unit)),
                              "convert the prior and state the model's unit");
             result.parameters.push_back(
-                {index, name, unit, read_range(entry.at("prior"), "prior")});
+                {index, name, unit, mapping_entries::range(entry.at("prior"), "prior")});
         }
         if (result.parameters.empty())
             list.fail("no parameter is unknown",
@@ -93,17 +87,8 @@ private:
                     entry.fail(in_quotes(name) + " is fixed and a parameter",
                                "keep one of the two");
             auto const value = entry.number();
-            result.fixed.push_back({index, value, enclosed(entry, value, value)});
+            result.fixed.push_back({index, value, *enclose(value)});
         }
-    }
-
-    static void read_fraction(json_value const& entry, dataset& result) {
-        auto const fraction = entry.number();
-        auto const one = *exact_decimal::parse("1");
-        if (fraction.is_negative() || !(fraction < one))
-            entry.fail(text_of("the fraction ", fraction.text(), " is outside [0, 1)"),
-                       "state the share of outliers, such as 0.05");
-        result.max_outlier_fraction = fraction;
     }
 
     void read_scenarios(json_value const& list, dataset& result) const {
@@ -125,17 +110,10 @@ private:
         entry.allow_only(
             {"name", "role", "duration", "inputs", "interpolation", "measurements", "initial"});
         scenario result;
-        result.name = entry.at("name").string();
-        if (result.name.find_first_of("/\\") != std::string::npos || result.name.front() == '.')
-            entry.at("name").fail(
-                text_of("the name ", in_quotes(result.name), " cannot be a file name"),
-                "use letters, digits, - and _");
+        result.name = mapping_entries::file_name(entry.at("name"));
         result.role = entry.at("role").is_second_of("fit", "holdout") ? scenario_role::holdout
                                                                       : scenario_role::fit;
-        auto const duration = entry.at("duration").number();
-        result.duration = *nearest(duration);
-        if (!(result.duration > 0))
-            entry.at("duration").fail("the duration is not above 0", "state it in seconds");
+        result.duration = *nearest(mapping_entries::duration(entry.at("duration")));
 
         // A model without inputs needs no file of them.
         bool const driven = !model_.inputs.empty() || entry.find("inputs") != nullptr;
@@ -169,39 +147,11 @@ private:
             result.initial.push_back({model_.state_ranges.at(i), std::nullopt});
         for (std::size_t i = 0; i < list.members().size(); ++i) {
             auto const& entry = list.members()[i];
-            auto const index = index_of(model_.states, list.name_of(i));
-            if (!index)
-                entry.fail(text_of("unknown state ", in_quotes(list.name_of(i))),
-                           text_of("the model has: ", joined_names(model_.states)));
-            auto const range = read_range(entry, "initial value");
-            result.initial[*index] = {range.enclosure, range};
+            auto const index =
+                mapping_entries::index_of(model_.states, list.name_of(i), entry, "state");
+            auto const range = mapping_entries::range(entry, "initial value");
+            result.initial[index] = {range.enclosure, range};
         }
-    }
-
-    static interval enclosed(json_value const& entry, exact_decimal const& lower,
-                             exact_decimal const& upper) {
-        auto const result = enclose(lower, upper);
-        if (!result) entry.fail("beyond the range of double", "give smaller numbers");
-        return *result;
-    }
-
-    static stated_range read_range(json_value const& entry, std::string const& what) {
-        auto const& ends = entry.elements();
-        if (ends.size() != 2)
-            entry.fail(text_of("the ", what, " has ", std::to_string(ends.size()),
-                               " numbers instead of 2"),
-                       "write [lower, upper]");
-        auto const lower = ends[0].number(), upper = ends[1].number();
-        if (upper < lower)
-            entry.fail(text_of("the ", what, " [", lower.text(), ", ", upper.text(),
-                               "] is empty: lower is above upper"),
-                       "write [lower, upper]");
-        auto const enclosure = enclosed(entry, lower, upper);
-        if (mag(enclosure) > farthest_range)
-            entry.fail(text_of("the ", what, " [", lower.text(), ", ", upper.text(),
-                               "] reaches beyond 1e100"),
-                       "state the range that is physically possible");
-        return {lower, upper, enclosure};
     }
 
     static bool same_unit(std::string const& a, std::string const& b) {

@@ -21,9 +21,10 @@ namespace sivid {
 
 namespace io_detail {
 
-inline void write_head(json_writer& json, char const* format, stored_prediction const& about,
-                       decision_json_options const& options) {
-    json.members("format", format, "dataset", options.dataset);
+inline json_writer begun(char const* format, stored_prediction const& about,
+                         decision_json_options const& options) {
+    json_writer json;
+    json.begin_object().members("format", format, "dataset", options.dataset);
     json.key("result").object("folder", options.source_folder, "sha256", options.source_digest);
     json.members("scenario", options.scenario, "duration", about.problem.end);
     json.named("set", options.set);
@@ -36,6 +37,11 @@ inline void write_head(json_writer& json, char const* format, stored_prediction 
     json.members("coordinates", about.sides);
     if (!about.not_in_products.empty()) json.members("not_in_products", about.not_in_products);
     json.members("boxes", about.problem.sets.size(), "assumptions", about.assumptions);
+    return json;
+}
+
+inline std::string ended(json_writer& json, std::size_t integrations, double seconds) {
+    return json.members("integrations", integrations, "seconds", seconds).end_object().text();
 }
 
 /// A motion that violates, with its parameters.
@@ -70,16 +76,13 @@ inline void write_worth(json_writer& json, identification_problem const& about,
 
 SIVID_DECL std::string prediction_json(stored_prediction const& about, prediction const& found,
                                        decision_json_options const& options) {
-    json_writer json;
-    json.begin_object();
-    io_detail::write_head(json, "sivid-prediction-1", about, options);
+    auto json = io_detail::begun("sivid-prediction-1", about, options);
     json.members("complete", found.complete, "reached", found.reached);
     json.key("excess").upper_bound(found.excess).members("tubes", "tubes.csv");
     json.named("at_end", found.channels,
                [&](predicted_tube const& tube) { json.bounds(tube.low.back(), tube.high.back()); });
-    json.members("parts", found.parts, "integrations", found.integrations);
-    json.members("seconds", found.seconds).end_object();
-    return json.text();
+    json.members("parts", found.parts);
+    return io_detail::ended(json, found.integrations, found.seconds);
 }
 
 SIVID_DECL std::string tubes_csv(prediction const& found) {
@@ -111,9 +114,7 @@ SIVID_DECL std::string tubes_csv(prediction const& found) {
 SIVID_DECL std::string verification_json(stored_prediction const& about, requirement const& asked,
                                          verification const& found,
                                          decision_json_options const& options) {
-    json_writer json;
-    json.begin_object();
-    io_detail::write_head(json, "sivid-verification-1", about, options);
+    auto json = io_detail::begun("sivid-verification-1", about, options);
     json.members("requirement", asked.text, "answer", to_string(found.answer));
     json.key("robustness").bounds(found.found.low, found.found.high);
     json.members("reached", found.reached);
@@ -135,9 +136,7 @@ SIVID_DECL std::string verification_json(stored_prediction const& about, require
 SIVID_DECL std::string control_json(stored_prediction const& about, requirement const& asked,
                                     gain_set const& found, verification const* proof,
                                     decision_json_options const& options) {
-    json_writer json;
-    json.begin_object();
-    io_detail::write_head(json, "sivid-control-1", about, options);
+    auto json = io_detail::begun("sivid-control-1", about, options);
     json.members("requirement", asked.text, "gains", found.names);
     auto const& paving = found.paving.paving;
     json.members("answer", found.some_proved() ? "proved" : found.none_exists() ? "none" : "open");
@@ -164,9 +163,8 @@ SIVID_DECL std::string control_json(stored_prediction const& about, requirement 
     }
     json.list("against", found.against,
               [&](violating_motion const& w) { io_detail::write_motion(json, about, w); });
-    json.members("parts", found.parts, "integrations", found.integrations);
-    json.members("seconds", found.seconds).end_object();
-    return json.text();
+    json.members("parts", found.parts);
+    return io_detail::ended(json, found.integrations, found.seconds);
 }
 
 namespace io_detail {
@@ -183,9 +181,7 @@ inline void write_manoeuvre(json_writer& json, tried_manoeuvre const& m) {
 
 SIVID_DECL std::string design_json(stored_prediction const& about, design_answer const& found,
                                    decision_json_options const& options) {
-    json_writer json;
-    json.begin_object();
-    io_detail::write_head(json, "sivid-design-1", about, options);
+    auto json = io_detail::begun("sivid-design-1", about, options);
     auto const* const best = found.found.best();
     bool const goals = !found.goals.empty();
     json.members("answer", found.impossible           ? "hidden"
@@ -219,9 +215,8 @@ SIVID_DECL std::string design_json(stored_prediction const& about, design_answer
     });
     json.list("tried", found.found.tried,
               [&](tried_manoeuvre const& m) { io_detail::write_manoeuvre(json, m); });
-    json.members("looked_at", found.found.simulated, "integrations", found.found.integrations);
-    json.members("seconds", found.found.seconds).end_object();
-    return json.text();
+    json.members("looked_at", found.found.simulated);
+    return io_detail::ended(json, found.found.integrations, found.found.seconds);
 }
 
 SIVID_DECL std::string gains_csv(gain_set const& found) {
@@ -264,9 +259,8 @@ SIVID_DECL std::string ranking_json(identification_problem const& about, ranking
         json.key("measurements");
         io_detail::write_worth(json, about, *measurements);
     }
-    json.members("parts", found.parts, "integrations", found.integrations);
-    json.members("seconds", found.seconds).end_object();
-    return json.text();
+    json.members("parts", found.parts);
+    return io_detail::ended(json, found.integrations, found.seconds);
 }
 
 } // namespace sivid

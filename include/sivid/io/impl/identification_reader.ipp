@@ -5,20 +5,24 @@
 #include <sivid/io/identification_reader.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/dataset/mapping_entries.hpp>
 #include <sivid/io/result/certificates_csv.hpp>
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/io/text/csv_table.hpp>
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/io/text/text_file.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/sha256.hpp>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -56,6 +60,17 @@ inline long whole(json_value const& entry) {
     return x.is_negative() ? -static_cast<long>(*size) : static_cast<long>(*size);
 }
 
+inline double nearest_number(json_value const& entry) { return *nearest(entry.number()); }
+
+/// The members of an object by their names, as `of` reads each.
+template <class Of>
+auto by_name(json_value const& object, Of const& of) {
+    std::map<std::string, std::remove_cvref_t<std::invoke_result_t<Of, json_value const&>>> all;
+    for (std::size_t k = 0; k < object.members().size(); ++k)
+        all[object.name_of(k)] = std::invoke(of, object.members()[k]);
+    return all;
+}
+
 template <class Word>
 Word one_of(json_value const& entry, std::initializer_list<Word> words) {
     for (auto const w : words)
@@ -65,14 +80,10 @@ Word one_of(json_value const& entry, std::initializer_list<Word> words) {
 
 inline stored_identification::identifiability_claims read_claims(json_value const& entry) {
     stored_identification::identifiability_claims result;
-    auto const& at = entry.at("at");
-    for (std::size_t c = 0; c < at.members().size(); ++c) {
-        auto const& ends = at.members()[c].elements();
-        if (ends.size() != 2) at.members()[c].fail("not a pair of bounds", "write [lower, upper]");
-        double const low = *nearest(ends[0].number()), high = *nearest(ends[1].number());
-        if (low > high) at.members()[c].fail("lower is above upper", "write [lower, upper]");
-        result.at[at.name_of(c)] = interval_traits<interval>::bounds(low, high);
-    }
+    result.at = by_name(entry.at("at"), [](json_value const& side) { // the very doubles
+        auto const [low, high] = mapping_entries::ends(side);
+        return interval_traits<interval>::bounds(*nearest(low), *nearest(high));
+    });
     for (auto const& name : entry.at("unknowns").elements())
         result.unknowns.push_back(name.string());
     result.least_rank = count(entry.at("rank").at("least"));
@@ -80,12 +91,8 @@ inline stored_identification::identifiability_claims read_claims(json_value cons
     auto const proved = [](json_value const& claim) { return claim.at("proved").boolean(); };
     for (auto const& m : entry.at("free").elements()) {
         if (!proved(m)) continue;
-        std::map<std::string, long> weights;
-        auto const& of = m.at("weights");
-        for (std::size_t c = 0; c < of.members().size(); ++c) {
-            weights[of.name_of(c)] = whole(of.members()[c]);
-        }
-        result.proved.push_back(motion_claim(m.at("kind").string(), weights));
+        result.proved.push_back(
+            motion_claim(m.at("kind").string(), by_name(m.at("weights"), whole)));
     }
     for (auto const& f : entry.at("fixed").elements())
         if (proved(f)) result.proved.push_back("fixed " + f.at("formula").string());
@@ -101,9 +108,7 @@ inline stop_reason stop_reason_of(json_value const& entry) {
 }
 
 inline void read_result(json_value const& root, stored_identification& result) {
-    if (root.at("format").string() != "sivid-identification-1")
-        root.at("format").fail(text_of("unknown format ", in_quotes(root.at("format").string())),
-                               "this version reads sivid-identification-1");
+    mapping_entries::require_format(root, "sivid-identification-1");
     result.dataset = root.at("dataset").any_string();
     if (auto const* source = root.find("source")) {
         result.source_folder = source->at("folder").any_string();
@@ -123,8 +128,8 @@ inline void read_result(json_value const& root, stored_identification& result) {
     result.reason = stop_reason_of(root.at("stop_reason"));
     if (auto const* search = root.find("search")) {
         auto const& bytes = search->at("most_bytes");
-        result.effort = search_effort{*nearest(search->at("seconds").number()),
-                                      *nearest(search->at("most_seconds").number()),
+        result.effort = search_effort{nearest_number(search->at("seconds")),
+                                      nearest_number(search->at("most_seconds")),
                                       count(search->at("boxes")),
                                       count(search->at("most_boxes")),
                                       {}};
@@ -135,13 +140,11 @@ inline void read_result(json_value const& root, stored_identification& result) {
             result.effort->hull_gain = nearest(gain->number());
     }
     if (auto const* enclosures = root.find("enclosures"))
-        result.tolerance = *nearest(enclosures->at("tolerance").number());
+        result.tolerance = nearest_number(enclosures->at("tolerance"));
     for (auto const& a : root.at("assumptions").elements())
         result.assumptions.push_back(a.any_string());
-    if (auto const* files = root.find("files")) {
-        for (std::size_t k = 0; k < files->members().size(); ++k)
-            result.stated_files[files->name_of(k)] = files->members()[k].string();
-    }
+    if (auto const* files = root.find("files"))
+        result.stated_files = by_name(*files, &json_value::string);
     auto const& parameters = root.at("parameters");
     for (std::size_t j = 0; j < parameters.members().size(); ++j)
         result.parameters.push_back({parameters.name_of(j),
@@ -160,35 +163,20 @@ inline void read_result(json_value const& root, stored_identification& result) {
     if ((source == "products") != (products != nullptr))
         root.at("volume").fail("volumes of products need the paving of products, and only they",
                                "identify again");
-    auto const read_counts = [](json_value const& list) {
-        std::map<std::string, std::size_t> counts;
-        for (std::size_t k = 0; k < list.members().size(); ++k)
-            counts[list.name_of(k)] = count(list.members()[k]);
-        return counts;
-    };
     if (products != nullptr) {
         result.products.emplace();
         for (auto const& side : products->at("sides").elements())
             result.products->sides.push_back(side.string());
-        result.products->stated_rows = read_counts(products->at("rows"));
+        result.products->stated_rows = by_name(products->at("rows"), count);
     }
-    auto const read_numbers = [](json_value const& list) {
-        std::map<std::string, double> values;
-        for (std::size_t i = 0; i < list.members().size(); ++i)
-            values[list.name_of(i)] = *nearest(list.members()[i].number());
-        return values;
-    };
+    auto const read_numbers = [](json_value const& list) { return by_name(list, nearest_number); };
     if (auto const& w = root.at("witness"); w.type() != json_value::kind::null) {
         result.witness.emplace();
         result.witness->parameters = read_numbers(w.at("parameters"));
-        auto const& initial = w.at("initial");
-        for (std::size_t s = 0; s < initial.members().size(); ++s)
-            result.witness->initial[initial.name_of(s)] = read_numbers(initial.members()[s]);
+        result.witness->initial = by_name(w.at("initial"), read_numbers);
     }
     auto const& outliers = root.at("outliers");
-    auto const& budget = outliers.at("budget");
-    for (std::size_t s = 0; s < budget.members().size(); ++s)
-        result.budget[budget.name_of(s)] = count(budget.members()[s]);
+    result.budget = by_name(outliers.at("budget"), count);
     auto const read_count = [](json_value const& entry) {
         proved_count const c{count(entry.at("least")), count(entry.at("most"))};
         if (c.least > c.most) entry.fail("least is above most", "correct it");
@@ -196,14 +184,12 @@ inline void read_result(json_value const& root, stored_identification& result) {
     };
     if (auto const* fewest = outliers.find("fewest")) {
         result.fewest = read_count(fewest->at("total"));
-        auto const& alone = fewest->at("alone");
-        for (std::size_t s = 0; s < alone.members().size(); ++s)
-            result.fewest_alone[alone.name_of(s)] = read_count(alone.members()[s]);
+        result.fewest_alone = by_name(fewest->at("alone"), read_count);
     }
     for (auto const& f : outliers.at("forced").elements())
         result.forced.push_back(
-            {f.at("scenario").string(), *nearest(f.at("t").number()), f.at("channel").string()});
-    if (auto const* rows = root.find("rows")) result.stated_rows = read_counts(*rows);
+            {f.at("scenario").string(), nearest_number(f.at("t")), f.at("channel").string()});
+    if (auto const* rows = root.find("rows")) result.stated_rows = by_name(*rows, count);
     if (auto const* told = root.find("identifiability"))
         result.identifiability = read_claims(*told);
 }
@@ -211,12 +197,7 @@ inline void read_result(json_value const& root, stored_identification& result) {
 inline std::vector<paved_box> read_rows(csv_table const& table,
                                         std::vector<std::string> const& names) {
     std::vector<paved_box> rows;
-    std::vector<std::string> expected{"verdict"};
-    for (auto const& name : names) {
-        expected.push_back(name + "_lower");
-        expected.push_back(name + "_upper");
-    }
-    if (table.headings() != expected)
+    if (joined(table.headings(), ",") != paving_headings(names))
         table.fail(table.heading_line(),
                    "the columns are not those of the parameters in "
                    "result.json",

@@ -5,9 +5,9 @@
 #include <sivid/io/scenario.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/dataset/mapping_entries.hpp>
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/io/text/json_writer.hpp>
-#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <array>
@@ -62,13 +62,9 @@ public:
         if (format != "sivid-scenario-1" && format != "hovercraft-scenario-1")
             root.at("format").fail("unknown format", "write sivid-scenario-1");
         scenario_description result;
-        result.name = root.at("name").string();
-        if (result.name.find_first_of("/\\") != std::string::npos || result.name.front() == '.')
-            root.at("name").fail("the name cannot be a file name", "use letters, digits, - and _");
+        result.name = mapping_entries::file_name(root.at("name"));
         if (auto const* about = root.find("about")) result.about = about->any_string();
-        result.duration = number(root.at("duration"));
-        if (!(result.duration > 0))
-            root.at("duration").fail("the duration is not above 0", "state it in seconds");
+        result.duration = *nearest(mapping_entries::duration(root.at("duration")));
         auto const& initial = root.at("initial");
         only(initial, model_.states);
         for (auto const& s : model_.states) result.initial.push_back(range(initial.at(s.name)));
@@ -83,22 +79,13 @@ private:
 
     static void only(json_value const& list, std::vector<name_unit> const& names) {
         for (std::size_t i = 0; i < list.members().size(); ++i)
-            if (!index_of(names, list.name_of(i)))
-                list.members()[i].fail(std::string{"unknown name "} + in_quotes(list.name_of(i)),
-                                       std::string{"the model has: "} + joined_names(names));
+            (void)mapping_entries::index_of(names, list.name_of(i), list.members()[i], "name");
     }
 
     static stated_range range(json_value const& entry) {
-        exact_decimal low, high;
-        if (entry.type() == json_value::kind::array) {
-            if (entry.elements().size() != 2)
-                entry.fail("a range needs two numbers", "write [lower, upper]");
-            low = entry.elements()[0].number();
-            high = entry.elements()[1].number();
-            if (high < low) entry.fail("lower is above upper", "write [lower, upper]");
-        } else {
-            low = high = entry.number();
-        }
+        auto const [low, high] = entry.type() == json_value::kind::array
+                                     ? mapping_entries::ends(entry)
+                                     : std::pair{entry.number(), entry.number()};
         return {low, high, *enclose(low, high)};
     }
 

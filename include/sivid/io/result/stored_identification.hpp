@@ -83,6 +83,13 @@ struct stored_identification {
 
 namespace io_detail {
 
+/// The first line of a table of boxes.
+[[nodiscard]] inline std::string paving_headings(std::vector<std::string> const& names) {
+    std::string text = "verdict";
+    for (auto const& name : names) text += std::string{","} + name + "_lower," + name + "_upper";
+    return text;
+}
+
 /// How a result states a motion that no output shows: "scaling L 1, Sg -1"
 [[nodiscard]] inline std::string motion_claim(std::string const& kind,
                                               std::map<std::string, long> const& weights) {

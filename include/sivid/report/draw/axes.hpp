@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace sivid::report {
@@ -65,8 +67,8 @@ public:
         return bottom_ - (bottom_ - top_) * share(y, y_.bounds);
     }
 
-    /// Ground, grid and title: draw before the data.
-    void draw_ground(svg& out) const {
+    /// Ground, grid and title. Of what is drawn until `close` only what lies in the frame shows.
+    void open(svg& out) const {
         out.rect(left_, top_, right_ - left_, bottom_ - top_, {.fill = palette::paper});
         if (!options_.title.empty()) {
             out.text(left_, top_ - 11,
@@ -83,10 +85,12 @@ public:
             }
             out.path(lines, {.stroke = palette::grid});
         }
+        out.clip(left_, top_, right_ - left_, bottom_ - top_);
     }
 
-    /// Frame, ticks and labels: draw after the data. Tells the page's script where values are.
-    void draw_frame(svg& out) const {
+    /// Frame, ticks and labels, after the data. Tells the page's script where values are.
+    void close(svg& out) const {
+        out.close();
         place(out, "x", x_, left_, right_);
         place(out, "y", y_, bottom_, top_);
         path_data marks;
@@ -114,6 +118,12 @@ public:
                  {.size = fitting_size(y_label, bottom_ - top_ + 20),
                   .align = anchor::middle,
                   .rotate = -90});
+    }
+
+    /// A few quiet words across the frame, in the middle or at y: where there is nothing to draw.
+    void say(svg& out, std::string_view words, std::optional<double> y = {}) const {
+        out.text((left_ + right_) / 2, y.value_or((top_ + bottom_) / 2), words,
+                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
     }
 
 private:
@@ -162,9 +172,7 @@ private:
             x_ticks_ = nice_ticks(x_.bounds, columns);
             double const room =
                 (right_ - left_) / std::max<double>(1, static_cast<double>(x_ticks_.ticks.size()));
-            if (widest(x_ticks_) + 8 <= room) {
-                break;
-            }
+            if (widest(x_ticks_) + 8 <= room) break;
         }
     }
     void make_aspect_equal() {
@@ -173,9 +181,7 @@ private:
         double const x_size = approximate_width(x_.bounds);
         double const y_size = approximate_width(y_.bounds);
         double const per_unit = std::min(wide / x_size, high / y_size);
-        if (!std::isfinite(per_unit) || per_unit <= 0) {
-            return;
-        }
+        if (!std::isfinite(per_unit) || per_unit <= 0) return;
         x_.bounds = with_margin(x_.bounds, std::max(0.0, (wide / per_unit / x_size - 1) / 2));
         y_.bounds = with_margin(y_.bounds, std::max(0.0, (high / per_unit / y_size - 1) / 2));
     }

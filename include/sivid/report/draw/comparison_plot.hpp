@@ -49,9 +49,6 @@ comparison_legend(std::vector<comparison_series> const& all,
 [[nodiscard]] SIVID_DECL heat_map misfit_map(std::vector<comparison_series> const& channels,
                                              bool after, std::size_t most_columns = 60);
 
-/// The largest finite value of a map; 0 when there is none.
-[[nodiscard]] SIVID_DECL double largest_value(heat_map const& m);
-
 } // namespace sivid::report
 
 #ifndef SIVID_COMPILED

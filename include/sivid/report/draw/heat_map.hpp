@@ -29,6 +29,9 @@ struct heat_map_options {
     bool key = true;    ///< draw the colour bar
 };
 
+/// The largest finite value of a map; 0 when there is none.
+[[nodiscard]] SIVID_DECL double largest_value(heat_map const& m);
+
 /// Channels against time in colour: blue up to the threshold, orange with a cross above it, hatched
 /// where nothing is known; with a colour bar.
 [[nodiscard]] SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o = {});

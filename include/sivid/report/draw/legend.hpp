@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// The symbols of all plots, drawn by the same functions in a plot and in its legend.
@@ -46,6 +48,15 @@ struct legend_entry {
     symbol mark;
     std::string label{};
 };
+
+/// Those entries that occur.
+[[nodiscard]] inline std::vector<legend_entry>
+legend_of(std::initializer_list<std::pair<bool, legend_entry>> all) {
+    std::vector<legend_entry> out;
+    for (auto const& [occurs, entry] : all)
+        if (occurs) out.push_back(entry);
+    return out;
+}
 
 SIVID_DECL void draw_measured(svg& out, double x, double low, double high, std::string_view colour,
                               std::string_view tip = {});

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sivid::report {
@@ -29,6 +30,19 @@ struct time_plot_options {
 time_plot_legend(std::vector<channel_series> const& all);
 
 namespace detail {
+
+/// A frame over time.
+[[nodiscard]] inline axes time_axes(time_plot_options const& o, range const& time, axis y) {
+    return {{"time", "s", is_empty(o.time) ? time : o.time},
+            std::move(y),
+            {.width = o.width, .height = o.height, .title = o.title}};
+}
+
+/// Draws bars for the regular samples, one in `stride`. @returns the others
+SIVID_DECL std::vector<measured_sample const*> draw_regular(svg& out, axes const& a,
+                                                            channel_series const& c,
+                                                            std::size_t stride,
+                                                            std::string_view colour);
 
 /// Draws the tube: one outline for each run without a gap; pieces thinner than half a unit of the
 /// drawing are joined by their hull, so the picture never shows less than the tube.

@@ -49,8 +49,7 @@ inline void add_gains(page& out, gain_set const& found) {
                                "whole range"}));
         return;
     }
-    table t{.columns = {{found.names[0], column_kind::number}, {"", column_kind::note}},
-            .rows = {}};
+    table t{.columns = {{found.names[0], column_kind::number}, {"", column_kind::note}}};
     std::vector<paved_box const*> row;
     for (auto const& b : paving.boxes()) row.push_back(&b);
     std::sort(row.begin(), row.end(), [](paved_box const* a, paved_box const* b) {
@@ -143,7 +142,7 @@ SIVID_DECL page control_page(stored_prediction const& about, requirement const& 
     }
     if (!found.against.empty()) {
         out.section("What excludes gains");
-        table t{.columns = {}, .rows = {}};
+        table t;
         for (auto const& name : about.direct.choice.unknown)
             t.columns.push_back({name, column_kind::number});
         t.columns.push_back({"robustness", column_kind::number});
@@ -158,9 +157,7 @@ SIVID_DECL page control_page(stored_prediction const& about, requirement const& 
                     "violates it for one of them. Rounded; control.json has them in full.";
         out.add(t);
     }
-    detail::add_parameters(out, about, o);
-    out.assumptions(decision_assumptions(about));
-    out.footer(o.footer);
+    detail::add_basis(out, about, o, decision_assumptions(about));
     return out;
 }
 

@@ -96,16 +96,13 @@ SIVID_DECL page prediction_page(stored_prediction const& about, prediction const
     detail::add_motions(out, found, o);
     out.section("At the end");
     table t{
-        .columns = {{"quantity", column_kind::symbol}, {"range", column_kind::number}, {"unit"}},
-        .rows = {}};
+        .columns = {{"quantity", column_kind::symbol}, {"range", column_kind::number}, {"unit"}}};
     for (auto const& c : found.channels) {
         range const r{c.low.back(), c.high.back()};
         t.rows.push_back({c.name, is_finite(r) ? outward_text(r) : "not known", unit_text(c.unit)});
     }
     out.add(t);
-    detail::add_parameters(out, about, o);
-    out.assumptions(decision_assumptions(about));
-    out.footer(o.footer);
+    detail::add_basis(out, about, o, decision_assumptions(about));
     return out;
 }
 
@@ -139,7 +136,7 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
     detail::add_margins(out, asked, tubes, o);
     if (!found.open.empty()) {
         out.section("Where it is open");
-        table t{.columns = {}, .rows = {}};
+        table t;
         for (auto const& side : about.sides)
             t.columns.push_back({formula_text(side), column_kind::number});
         t.columns.push_back({"robustness", column_kind::number});
@@ -159,9 +156,7 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
     }
     out.section("The motion");
     detail::add_motions(out, tubes, o);
-    detail::add_parameters(out, about, o);
-    out.assumptions(decision_assumptions(about));
-    out.footer(o.footer);
+    detail::add_basis(out, about, o, decision_assumptions(about));
     return out;
 }
 

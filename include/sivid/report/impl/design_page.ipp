@@ -31,9 +31,7 @@ inline std::string goal_texts(design_answer const& a) {
 /// The inputs of a manoeuvre over time.
 inline void add_inputs(page& out, stored_prediction const& about, tried_manoeuvre const& m,
                        std::vector<varied_input> const& varied) {
-    figure f{.panels = {},
-             .legend = {},
-             .title = "What to do.",
+    figure f{.title = "What to do.",
              .caption = "Straight lines between the samples of scenario.json; the promise is for "
                         "exactly these inputs."};
     for (auto const& u : varied) {
@@ -49,11 +47,9 @@ inline void add_inputs(page& out, stored_prediction const& about, tried_manoeuvr
         }
         if (last < about.problem.end)
             line.single.push_back({about.problem.end, s->values().back()});
-        motion_plot_options options;
-        options.title = u.name;
-        f.panels.push_back(draw_motion_plot(line, options));
+        f.panels.push_back(draw_motion_plot(line, {.title = u.name}));
     }
-    table t{.columns = {{"setting"}, {"value", column_kind::number}, {"unit"}}, .rows = {}};
+    table t{.columns = {{"setting"}, {"value", column_kind::number}, {"unit"}}};
     for (std::size_t k = 0; k < m.about.size(); ++k)
         t.rows.push_back({m.about[k].name, given_text(m.settings[k]), unit_text(m.about[k].unit)});
     t.caption = "The shape \"" + m.name + "\". Rounded; design.json has them in full.";
@@ -67,8 +63,7 @@ inline void add_promises(page& out, design_answer const& a, promise const& p) {
     table t{.columns = {{"quantity", column_kind::symbol},
                         {"width now", column_kind::number},
                         {"at most afterwards", column_kind::number},
-                        {"share", column_kind::number}},
-            .rows = {}};
+                        {"share", column_kind::number}}};
     for (std::size_t g = 0; g < a.goals.size(); ++g) {
         auto const& w = p.goals[g];
         t.rows.push_back({a.goals[g].text, rounded_text(w.before, rounding::down),
@@ -85,8 +80,7 @@ inline void add_promises(page& out, design_answer const& a, promise const& p) {
 inline void add_plan(page& out, stored_prediction const& about, design_answer const& a) {
     table t{.columns = {{"channel", column_kind::symbol},
                         {"error at most", column_kind::number},
-                        {"unit"}},
-            .rows = {}};
+                        {"unit"}}};
     auto const& channels = about.problem.model.about.channels;
     for (std::size_t c = 0; c < channels.size(); ++c) {
         if (a.plan.errors[c] > 0)
@@ -103,8 +97,7 @@ inline void add_tried(page& out, design_answer const& a) {
     table t{.columns = {{"shape"},
                         {"estimate", column_kind::number},
                         {a.goals.empty() ? "proof" : "proved share", column_kind::number},
-                        {"limits"}},
-            .rows = {}};
+                        {"limits"}}};
     for (auto const& m : a.found.tried)
         t.rows.push_back({m.name, rounded_text(m.estimate, rounding::nearest, {.significant = 2}),
                           !m.promised              ? "not asked"
@@ -214,13 +207,11 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
         if (tubes != nullptr) detail::add_motions(out, *tubes, o);
     }
     if (!a.found.tried.empty()) detail::add_tried(out, a);
-    detail::add_parameters(out, about, o);
     auto assumptions = decision_assumptions(about);
     if (!hidden)
         assumptions.push_back("The errors of the new measurements stay within the bounds that are "
                               "stated here.");
-    out.assumptions(assumptions);
-    out.footer(o.footer);
+    detail::add_basis(out, about, o, assumptions);
     return out;
 }
 

@@ -76,8 +76,7 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
                                      [](measured_sample const& m) { return has_residual(m); });
     }
     std::string const which = "scenario " + s.name;
-    figure measured{.panels = {},
-                    .legend = time_plot_legend(s.channels),
+    figure measured{.legend = time_plot_legend(s.channels),
                     .title = (tubes ? "Measurements and proven enclosure, " : "Measurements, ") +
                              which + ".",
                     .caption = "Every bar is a measured interval" +
@@ -85,8 +84,7 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
                                                    "every instant, not only at the samples. "
                                                  : ". "} +
                                tube + reference};
-    figure against{.panels = {},
-                   .title = "The enclosure within each measured interval, " + which + ".",
+    figure against{.title = "The enclosure within each measured interval, " + which + ".",
                    .caption = "Zero is the middle of the measured interval, +1 and \xE2\x88\x92"
                               "1 its ends. An enclosure between the lines meets its measurement "
                               "for certain; one wholly beyond misses it for certain."};
@@ -110,17 +108,12 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
 
 inline void add_outliers(page& out, identification_view const& v) {
     std::size_t budget = 0;
-    for (scenario_view const& s : v.scenarios) {
-        budget += s.outlier_budget;
-    }
-    if (v.outliers.empty() && budget == 0) {
-        return;
-    }
+    for (scenario_view const& s : v.scenarios) budget += s.outlier_budget;
+    if (v.outliers.empty() && budget == 0) return;
     out.section("Outliers");
     table allowed{.columns = {{"scenario", column_kind::symbol},
                               {"measurements", column_kind::number},
-                              {"outliers allowed", column_kind::number}},
-                  .rows = {}};
+                              {"outliers allowed", column_kind::number}}};
     for (scenario_view const& s : v.scenarios) {
         allowed.rows.push_back({s.name, count_text(s.measurements), count_text(s.outlier_budget)});
     }
@@ -128,8 +121,7 @@ inline void add_outliers(page& out, identification_view const& v) {
     table found{.columns = {{"scenario", column_kind::symbol},
                             {"channel", column_kind::symbol},
                             {"time [s]", column_kind::number},
-                            {"what is known", column_kind::note}},
-                .rows = {}};
+                            {"what is known", column_kind::note}}};
     constexpr std::size_t most = 100;
     for (outlier_view const& o : v.outliers) {
         if (found.rows.size() < most) {
@@ -154,8 +146,7 @@ inline void add_computation(page& out, identification_view const& v) {
               (v.statistics.stop_reason.empty()
                    ? ""
                    : std::string{"Why it stopped: "} + sentence(v.statistics.stop_reason)));
-    table t{.columns = {{"volume relative to the prior"}, {"proved within", column_kind::number}},
-            .rows = {}};
+    table t{.columns = {{"volume relative to the prior"}, {"proved within", column_kind::number}}};
     if (!is_empty(v.volume_inner)) {
         t.rows.push_back({"inner: proved to explain the data", percent_interval(v.volume_inner)});
     }
@@ -173,12 +164,9 @@ inline void add_computation(page& out, identification_view const& v) {
                             {"inner volume", column_kind::number},
                             {"outer volume", column_kind::number},
                             {"remark", column_kind::note}},
-                .rows = {},
                 .caption = v.comparison_note};
         for (comparison_row const& r : v.comparison) {
-            if (r.chosen) {
-                c.chosen_row = c.rows.size();
-            }
+            if (r.chosen) c.chosen_row = c.rows.size();
             c.rows.push_back({r.name, r.seconds ? duration_text(*r.seconds) : "",
                               r.boxes ? count_text(*r.boxes) : "",
                               r.integrations ? count_text(*r.integrations) : "",
@@ -198,9 +186,7 @@ inline void add_why_little(page& out, identification_view const& v) {
 }
 
 inline void add_identifiability(page& out, identification_view const& v) {
-    if (v.identifiability.empty()) {
-        return;
-    }
+    if (v.identifiability.empty()) return;
     out.section("What such data can tell");
     out.prose(std::string{"Which unknowns the measured outputs determine, and which only in "
                           "combination, whatever the measured values"} +
@@ -234,9 +220,7 @@ SIVID_DECL page identification_page(identification_view const& v) {
     if (drawn) {
         out.section("Measurements and model");
         for (scenario_view const& s : v.scenarios) {
-            if (!s.channels.empty() || s.plane) {
-                detail::add_scenario(out, v, s);
-            }
+            if (!s.channels.empty() || s.plane) detail::add_scenario(out, v, s);
         }
     }
     detail::add_outliers(out, v);

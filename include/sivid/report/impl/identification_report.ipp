@@ -88,13 +88,9 @@ private:
                                                                   : outcome::undecided;
         view_.volume_inner = shown_share(found_.paving.inner_volume());
         view_.volume_outer = shown_share(found_.paving.outer_volume());
-        for (std::string const& a : found_.assumptions) {
-            view_.assumptions.push_back(sentence_of(a));
-        }
+        for (std::string const& a : found_.assumptions) view_.assumptions.push_back(sentence_of(a));
         std::size_t budget = 0;
-        for (experiment const& e : problem_.experiments) {
-            budget += e.outliers;
-        }
+        for (experiment const& e : problem_.experiments) budget += e.outliers;
         view_.assumptions.push_back(
             budget == 0 ? "Every measurement lies within its stated bound of the true value."
                         : "Every measurement lies within its stated bound of the true value, but "
@@ -153,15 +149,11 @@ private:
 
     void add_combinations() {
         std::vector<std::string> entangled;
-        for (std::size_t const j : found_.entangled) {
-            entangled.push_back(names()[j]);
-        }
+        for (std::size_t const j : found_.entangled) entangled.push_back(names()[j]);
         for (combination_hull const& c : found_.combinations) {
             std::vector<std::string> members;
             for (std::size_t const j : found_.entangled) {
-                if (c.what.exponents[j] != 0) {
-                    members.push_back(names()[j]);
-                }
+                if (c.what.exponents[j] != 0) members.push_back(names()[j]);
             }
             std::string note;
             if (members.size() > 1) {
@@ -181,18 +173,14 @@ private:
         auto const* const products = found_.products ? &*found_.products : nullptr;
         auto const* const box =
             (products ? products->paving : found_.paving).largest(box_verdict::inside);
-        if (box == nullptr) {
-            return;
-        }
+        if (box == nullptr) return;
         std::vector<std::string> sides;
         for (std::size_t k = 0; k < box->size(); ++k) {
             auto const* const side = products ? &products->map.sides()[k] : nullptr;
             std::size_t const j = side ? side->parameter : k;
             bool const product = side && side->product;
             auto const range = inward_text((*box)[k]);
-            if (!range) {
-                return;
-            }
+            if (!range) return;
             std::string const unit = unit_text(product ? side->product->unit : unit_of(j));
             sides.push_back((product ? formula_text(side->product->formula) : names()[j]) + " in " +
                             *range + (unit.empty() ? "" : " " + unit));
@@ -201,9 +189,7 @@ private:
     }
 
     void add_witness() {
-        if (!found_.witness) {
-            return;
-        }
+        if (!found_.witness) return;
         named_witness w;
         for (std::size_t j = 0; j < names().size(); ++j) {
             w.parameters.push_back({names()[j], unit_of(j), found_.witness->parameters[j]});
@@ -246,9 +232,7 @@ private:
             view_.reference_meaning = "plain numeric integration at the best fit found, about "
                                       "which nothing is proved";
         }
-        if (motion_ == nullptr) {
-            return;
-        }
+        if (motion_ == nullptr) return;
         if (motion_->source == motion_source::best_guess) {
             view_.tube_meaning = "the motion of the best fit found, which is not proved to explain "
                                  "the data";
@@ -276,16 +260,12 @@ private:
             p.sides.push_back({names()[j], unit_of(j), problem_.prior[j]});
             p.hull.push_back(view_.parameters[j].hull);
         }
-        if (found_.witness) {
-            p.witness = found_.witness->parameters;
-        }
+        if (found_.witness) p.witness = found_.witness->parameters;
         view_.pavings = projections(p, found_.entangled, most_pavings);
     }
 
     void add_product_pavings() {
-        if (!found_.products) {
-            return;
-        }
+        if (!found_.products) return;
         auto const& map = found_.products->map;
         named_paving p{.paving = &found_.products->paving};
         auto const hull = map.forward(found_.hull);
@@ -297,13 +277,9 @@ private:
                  side.product ? side.product->unit : unit_of(side.parameter),
                  map.problem().prior[k]});
             p.hull.push_back(hull[k]);
-            if (side.product) {
-                products.push_back(k);
-            }
+            if (side.product) products.push_back(k);
         }
-        if (found_.witness) {
-            p.witness = mid(map.forward(point_box(found_.witness->parameters)));
-        }
+        if (found_.witness) p.witness = mid(map.forward(point_box(found_.witness->parameters)));
         view_.product_pavings = projections(p, products, most_pavings);
     }
 

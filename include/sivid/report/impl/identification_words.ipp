@@ -31,9 +31,7 @@ SIVID_DECL std::string percent_interval(range const& share) {
 }
 
 SIVID_DECL double share_of_prior(parameter_view const& p) {
-    if (!is_finite(p.prior) || is_empty(p.hull) || !(p.prior.hi > p.prior.lo)) {
-        return std::nan("");
-    }
+    if (!is_finite(p.prior) || is_empty(p.hull) || !(p.prior.hi > p.prior.lo)) return std::nan("");
     double const share = (p.hull.hi - p.hull.lo) / (p.prior.hi - p.prior.lo);
     return std::min(1.0, share * (1 + 1e-15));
 }
@@ -64,9 +62,7 @@ SIVID_DECL std::string headline(identification_view const& v) {
 }
 
 SIVID_DECL std::string verdict_sentence(identification_view const& v) {
-    if (!v.sentence.empty()) {
-        return v.sentence;
-    }
+    if (!v.sentence.empty()) return v.sentence;
     switch (v.verdict) {
     case outcome::proved:
         return "A parameter vector that explains the data exists, and all that do are enclosed "

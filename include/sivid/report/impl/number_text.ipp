@@ -14,9 +14,7 @@ inline std::string special_text(double x) {
 
 /// One number, rounded at 10^quantum and written relative to 10^power.
 inline std::string bound_text(double x, int quantum, int shift, int power, rounding way) {
-    if (!std::isfinite(x)) {
-        return special_text(x);
-    }
+    if (!std::isfinite(x)) return special_text(x);
     scaled_decimal d = round_decimal(x, quantum, way);
     d.exponent += shift - power;
     return plain_text(d);
@@ -25,9 +23,7 @@ inline std::string bound_text(double x, int quantum, int shift, int power, round
 SIVID_DECL std::string interval_text(range const& r, number_format f, rounding low, rounding high) {
     double const largest = std::max(std::isfinite(r.lo) ? std::fabs(r.lo) : 0.0,
                                     std::isfinite(r.hi) ? std::fabs(r.hi) : 0.0);
-    if (largest == 0 && is_finite(r)) {
-        return "[0, 0]";
-    }
+    if (largest == 0 && is_finite(r)) return "[0, 0]";
     int const lead = leading_exponent(largest);
     double const width = r.hi - r.lo;
     int const finest = lead - 15;
@@ -43,9 +39,7 @@ SIVID_DECL std::string interval_text(range const& r, number_format f, rounding l
 } // namespace detail
 
 SIVID_DECL std::string rounded_text(double x, rounding way, number_format f) {
-    if (!std::isfinite(x) || x == 0) {
-        return x == 0 ? "0" : detail::special_text(x);
-    }
+    if (!std::isfinite(x) || x == 0) return x == 0 ? "0" : detail::special_text(x);
     int const lead = detail::leading_exponent(x);
     int const power = detail::needs_power(lead + f.shift) ? lead + f.shift : 0;
     std::string const text = detail::bound_text(x, lead - f.significant + 1, f.shift, power, way);
@@ -56,9 +50,7 @@ namespace detail {
 
 /// The shortest decimal that reads back within so much of x.
 inline std::string text_within(double x, double slack) {
-    if (!std::isfinite(x) || x == 0) {
-        return x == 0 ? "0" : special_text(x);
-    }
+    if (!std::isfinite(x) || x == 0) return x == 0 ? "0" : special_text(x);
     int digits = 0;
     double back = x;
     do {
@@ -82,18 +74,14 @@ SIVID_DECL std::string wider_text(double share) {
 }
 
 SIVID_DECL std::string outward_text(range const& r, number_format f) {
-    if (is_empty(r)) {
-        return "empty";
-    }
+    if (is_empty(r)) return "empty";
     return detail::interval_text(r, f, rounding::down, rounding::up);
 }
 
 SIVID_DECL std::optional<std::string> inward_text(range const& r, number_format f) {
     // Three units of the last digit that 16 digits leave: the ends cannot pass each other.
     double const size = std::max(std::fabs(r.lo), std::fabs(r.hi));
-    if (is_empty(r) || !is_finite(r) || !(r.hi - r.lo > 3e-15 * size)) {
-        return std::nullopt;
-    }
+    if (is_empty(r) || !is_finite(r) || !(r.hi - r.lo > 3e-15 * size)) return std::nullopt;
     return detail::interval_text(r, f, rounding::up, rounding::down);
 }
 
@@ -112,9 +100,7 @@ SIVID_DECL std::string outward_text_within(range const& proven, range const& giv
                                            number_format f) {
     std::string text = outward_text(proven, f);
     auto const comma = text.find(", ");
-    if (!is_finite(proven) || comma == std::string::npos || text.back() != ']') {
-        return text;
-    }
+    if (!is_finite(proven) || comma == std::string::npos || text.back() != ']') return text;
     std::string const low =
         proven.lo == given.lo ? given_text(given.lo) : text.substr(1, comma - 1);
     std::string const high = proven.hi == given.hi
@@ -127,24 +113,18 @@ SIVID_DECL std::string count_text(std::uint64_t n) {
     std::string const digits = std::to_string(n);
     std::string out;
     for (std::size_t i = 0; i < digits.size(); ++i) {
-        if (i > 0 && (digits.size() - i) % 3 == 0 && digits.size() > 4) {
-            out += "\xE2\x80\xAF";
-        }
+        if (i > 0 && (digits.size() - i) % 3 == 0 && digits.size() > 4) out += "\xE2\x80\xAF";
         out += digits[i];
     }
     return out;
 }
 
 SIVID_DECL std::string duration_text(double seconds) {
-    if (!(seconds >= 0) || !std::isfinite(seconds)) {
-        return "?";
-    }
+    if (!(seconds >= 0) || !std::isfinite(seconds)) return "?";
     if (seconds < 1) {
         return seconds == 0 ? "0 s" : rounded_text(seconds * 1e3, rounding::nearest) + " ms";
     }
-    if (seconds < 120) {
-        return rounded_text(seconds, rounding::nearest) + " s";
-    }
+    if (seconds < 120) return rounded_text(seconds, rounding::nearest) + " s";
     auto const whole = static_cast<std::uint64_t>(std::llround(std::min(seconds, 1e15)));
     return whole < 7200
                ? std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s"

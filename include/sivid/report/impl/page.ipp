@@ -56,9 +56,7 @@ SIVID_DECL page& page::add(table const& t) {
 }
 
 SIVID_DECL page& page::add(figure const& f) {
-    if (f.panels.empty()) {
-        return *this;
-    }
+    if (f.panels.empty()) return *this;
     body_ += "<figure";
     for (attribute_text const& a : f.data) {
         body_ += " data-" + a.name + "=\"" + escape(a.value) + '"';
@@ -75,9 +73,7 @@ SIVID_DECL page& page::add(figure const& f) {
     body_ += f.layout == panel_layout::wide   ? "<div class=\"panels wide\">"
              : f.layout == panel_layout::pair ? "<div class=\"panels pair\">"
                                               : "<div class=\"panels\">";
-    for (svg const& picture : f.panels) {
-        body_ += picture.str(next_prefix());
-    }
+    for (svg const& picture : f.panels) body_ += picture.str(next_prefix());
     body_ += "</div>";
     if (!f.title.empty() || !f.caption.empty()) {
         body_ += std::string{"<figcaption><b>Figure "} + std::to_string(++figures_) + ". " +
@@ -124,9 +120,7 @@ SIVID_DECL page& page::element(std::string const& name, std::string_view text) {
 
 SIVID_DECL std::string page::list(std::vector<std::string> const& lines) {
     std::string out = "<ul>";
-    for (std::string const& line : lines) {
-        out += std::string{"<li>"} + escape(line) + "</li>";
-    }
+    for (std::string const& line : lines) out += std::string{"<li>"} + escape(line) + "</li>";
     return lines.empty() ? std::string{} : out + "</ul>\n";
 }
 

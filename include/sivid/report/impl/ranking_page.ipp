@@ -99,8 +99,7 @@ inline void add_worth(page& out, identification_problem const& about,
     }
     table t{.columns = {{"without", column_kind::text},
                         {"measurements", column_kind::number},
-                        {"what explains the rest grows", column_kind::text}},
-            .rows = {}};
+                        {"what explains the rest grows", column_kind::text}}};
     std::vector<bar> bars;
     std::string idle;
     for (auto const& g : found.groups) {
@@ -148,8 +147,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
                {"integrations", count_text(found.integrations), "validated"}});
     if (auto const lines = ranking_sentences(about, found); !lines.empty()) out.bullets(lines);
     out.section("Effects");
-    figure f{.panels = {},
-             .title = "The largest effects, in error bounds.",
+    figure f{.title = "The largest effects, in error bounds.",
              .caption = "Full up to what a pair of validated runs reaches, hatched up to what is "
                         "proved never to be passed. Below 1 a parameter moves no measurement of "
                         "the channel by its error bound.",
@@ -158,8 +156,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
                         {"channel", column_kind::symbol},
                         {"parameter", column_kind::symbol},
                         {"effect", column_kind::number},
-                        {"place", column_kind::text}},
-            .rows = {}};
+                        {"place", column_kind::text}}};
     for (auto const& c : found.channels) {
         auto const& experiment = about.experiments[c.experiment].name;
         auto const& channel = about.model.about.channels[c.channel].name;
@@ -186,8 +183,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
     out.add(t);
     if (measurements != nullptr) detail::add_worth(out, about, *measurements);
     out.section("Over what");
-    table prior{.columns = {{"parameter", column_kind::symbol}, {"prior", column_kind::number}},
-                .rows = {}};
+    table prior{.columns = {{"parameter", column_kind::symbol}, {"prior", column_kind::number}}};
     for (std::size_t j = 0; j < about.prior.size(); ++j)
         prior.rows.push_back({about.choice.unknown[j],
                               outward_text({about.prior[j].lower(), about.prior[j].upper()})});

@@ -52,12 +52,8 @@ struct point {
 [[nodiscard]] inline double approximate_middle(range const& r) { return r.lo / 2 + r.hi / 2; }
 
 [[nodiscard]] inline range hull(range const& a, range const& b) {
-    if (is_empty(a)) {
-        return b;
-    }
-    if (is_empty(b)) {
-        return a;
-    }
+    if (is_empty(a)) return b;
+    if (is_empty(b)) return a;
     return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
 

@@ -26,6 +26,11 @@ namespace sivid {
 
 namespace io_detail {
 
+/// A side that stands for one decimal.
+inline bool is_decimal(interval const& x) {
+    return !(std::nextafter(x.lower(), HUGE_VAL) < x.upper());
+}
+
 /// Parameters that may be feasible, near given coordinates; and proofs.
 class feasible_search {
 public:
@@ -120,17 +125,11 @@ public:
     }
 
 private:
-    /// A side that stands for one decimal.
-    static bool is_decimal(interval const& x) {
-        return !(std::nextafter(x.lower(), HUGE_VAL) < x.upper());
-    }
     [[nodiscard]] bool any_choice() const {
-        for (auto const& e : data_.experiments) {
-            for (auto const& side : e.initial) {
-                if (!is_decimal(side)) return true;
-            }
-        }
-        return false;
+        return std::any_of(data_.experiments.begin(), data_.experiments.end(),
+                           [](experiment const& e) {
+                               return !std::all_of(e.initial.begin(), e.initial.end(), is_decimal);
+                           });
     }
     /// Gives the pivots of p the values that the products ask for.
     [[nodiscard]] bool solve(std::vector<double>& p, std::vector<double> const& products) const {
@@ -158,15 +157,14 @@ private:
 
 /// Whether states that effects added start where parameters say, or uncertain inputs do.
 inline bool starts_follow(identification_problem const& data, box const& initial) {
-    auto const wide = [](interval const& side) {
-        return std::nextafter(side.lower(), HUGE_VAL) < side.upper();
-    };
-    return std::any_of(
-        data.model.added_states.begin(), data.model.added_states.end(), [&](added_state const& a) {
-            return wide(initial[a.state]) ||
-                   std::any_of(data.experiments.begin(), data.experiments.end(),
-                               [&](experiment const& e) { return wide(e.initial[a.state]); });
-        });
+    return std::any_of(data.model.added_states.begin(), data.model.added_states.end(),
+                       [&](added_state const& a) {
+                           return !is_decimal(initial[a.state]) ||
+                                  std::any_of(data.experiments.begin(), data.experiments.end(),
+                                              [&](experiment const& e) {
+                                                  return !is_decimal(e.initial[a.state]);
+                                              });
+                       });
 }
 
 /// What is taken for granted besides what the identification says.

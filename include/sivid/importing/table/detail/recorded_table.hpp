@@ -134,10 +134,6 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
     recorded_rows rows{s, [&](std::size_t line, bool, auto const& problem, auto const& remedy) {
                            fail(line, time_column ? *time_column + 1 : 0, problem, remedy);
                        }};
-    auto const is_missing = [&](std::string const& cell) {
-        auto const& words = s.form.missing;
-        return cell.empty() || std::find(words.begin(), words.end(), cell) != words.end();
-    };
     auto const heads = [&](std::size_t line, std::vector<std::string> const& cells) {
         headings = cells;
         if (s.form.heading == false)
@@ -151,7 +147,7 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
         // What is found by its name is a heading.
         if (!s.form.heading &&
             std::all_of(references.begin(), references.end(), [&](column_reference const& c) {
-                return c.number > 0 && (is_missing(cells[c.number - 1]) ||
+                return c.number > 0 && (s.form.is_missing(cells[c.number - 1]) ||
                                         parse_reading(cells[c.number - 1], s.form.decimal));
             }))
             fail(line, 0, "the line of the headings may be a row: its mapped cells are numbers",
@@ -169,7 +165,7 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
         auto cells = split_cells(line.text, s.form.separator);
         bool const blank =
             plain.empty() && (headings.empty() || (headings.size() > 1 && cells->size() < 2));
-        if (blank || (plain.starts_with('#') && !(cells && is_missing(cells->front())))) {
+        if (blank || (plain.starts_with('#') && !(cells && s.form.is_missing(cells->front())))) {
             protocol.add(kind::dropped, s.name, "", "blank or comment", line.number);
             if (!headings.empty() || (blank && s.form.heading == false)) passed = line.number;
             continue;
@@ -193,7 +189,7 @@ read_recorded_table(scenario_mapping const& s, std::string_view text, import_pro
                  "correct the line, or import the file as a serial log, which drops such lines");
         auto const number = [&](std::size_t c) -> std::optional<exact_decimal> {
             auto const& cell = (*cells)[c];
-            if (is_missing(cell)) return std::nullopt;
+            if (s.form.is_missing(cell)) return std::nullopt;
             auto const value = parse_reading(cell, s.form.decimal);
             if (!value)
                 fail(line.number, c + 1, in_quotes(cell) + " is not a finite number",

@@ -113,10 +113,7 @@ private:
         std::vector<std::optional<exact_decimal>> values(fields.size());
         for (std::size_t i = 0; i < fields.size(); ++i) {
             auto const& cell = (*cells)[i];
-            if (fields[i] == "_" || cell.empty() ||
-                std::find(s_.form.missing.begin(), s_.form.missing.end(), cell) !=
-                    s_.form.missing.end())
-                continue;
+            if (fields[i] == "_" || s_.form.is_missing(cell)) continue;
             values[i] = parse_reading(cell, s_.form.decimal);
             if (!values[i]) return drop(l.number, "garbled: a cell is not a number");
         }

@@ -6,6 +6,7 @@
 #include <sivid/report/draw/channel_series.hpp>
 #include <sivid/report/draw/legend.hpp>
 #include <sivid/report/draw/svg.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/text/range.hpp>
 
 #include <string>
@@ -21,18 +22,13 @@ struct motion_series {
     bool zero = false;           ///< a margin: draw the line that it must not fall below
 };
 
-struct motion_plot_options {
-    double width = 360;
-    double height = 230;
-    std::string title{};
-    std::string full = "witness, not validated";
-};
-
+/// @param full  what the full line is
 [[nodiscard]] SIVID_DECL std::vector<legend_entry>
-motion_plot_legend(std::vector<motion_series> const& all, motion_plot_options const& o = {});
+motion_plot_legend(std::vector<motion_series> const& all,
+                   std::string const& full = "witness, not validated");
 
 [[nodiscard]] SIVID_DECL svg draw_motion_plot(motion_series const& m,
-                                              motion_plot_options const& o = {});
+                                              time_plot_options const& o = {});
 
 } // namespace sivid::report
 

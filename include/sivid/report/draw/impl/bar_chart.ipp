@@ -19,9 +19,7 @@ SIVID_DECL svg draw_bar_chart(std::vector<bar> const& bars, bar_chart_options co
             std::max(note_width, approximate_text_width(outward_text(b.value) + b.note, 11) + 22);
         shown = hull(hull(shown, b.value.lo), b.value.hi);
     }
-    if (o.threshold) {
-        shown = hull(shown, *o.threshold);
-    }
+    if (o.threshold) shown = hull(shown, *o.threshold);
     shown = axis_range({shown.lo, shown.hi + 0.04 * (shown.hi - shown.lo)});
     double const left = std::min(label_width + 12, o.width * 0.4);
     double const right = std::max(o.width - note_width, left + 60);
@@ -29,9 +27,7 @@ SIVID_DECL svg draw_bar_chart(std::vector<bar> const& bars, bar_chart_options co
         double const s = (v / 2 - shown.lo / 2) / (shown.hi / 2 - shown.lo / 2);
         return left + (right - left) * (std::isnan(s) ? 0.0 : std::clamp(s, 0.0, 1.0));
     };
-    if (!o.title.empty()) {
-        out.text(0, 16, o.title, {.size = 13, .bold = true});
-    }
+    if (!o.title.empty()) out.text(0, 16, o.title, {.size = 13, .bold = true});
     tick_set const ticks =
         nice_ticks(shown, std::clamp(static_cast<int>((right - left) / 70), 2, 10));
     path_data grid;

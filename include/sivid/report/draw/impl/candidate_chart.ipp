@@ -72,13 +72,9 @@ SIVID_DECL std::vector<legend_entry> candidate_legend(std::vector<candidate_bar>
         proved = proved || says_something(b.proved);
         fitted = fitted || is_fitted(b.fitted);
     }
-    std::vector<legend_entry> out;
-    if (proved) {
-        out.push_back({symbol::bar_to_lower, "up to the proved lower bound"});
-        out.push_back({symbol::bar_to_upper, "between the proved bounds"});
-    }
-    if (fitted) out.push_back({symbol::estimate, "best fit found (estimate)"});
-    return out;
+    return legend_of({{proved, {symbol::bar_to_lower, "up to the proved lower bound"}},
+                      {proved, {symbol::bar_to_upper, "between the proved bounds"}},
+                      {fitted, {symbol::estimate, "best fit found (estimate)"}}});
 }
 
 SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars,

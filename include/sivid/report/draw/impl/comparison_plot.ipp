@@ -10,9 +10,8 @@ namespace detail {
 
 SIVID_DECL channel_series plain_series(comparison_series const& c) {
     channel_series out{c.name, c.unit, c.measured, c.tube, c.after};
-    for (point const& p : c.before) {
+    for (point const& p : c.before)
         if (is_finite(p)) out.tube.push_back({p.x, p.x, {p.y, p.y}});
-    }
     return out;
 }
 
@@ -41,39 +40,22 @@ SIVID_DECL std::vector<legend_entry> comparison_legend(std::vector<comparison_se
             (m.state == sample_state::regular ? measured : suspect) = true;
         }
     }
-    std::vector<legend_entry> out;
-    auto const add = [&](bool used, symbol mark, std::string const& label) {
-        if (used) out.push_back({mark, label});
-    };
-    add(measured, symbol::measured, "measured interval");
-    add(suspect, symbol::suspect, "suspected outlier");
-    add(before, symbol::line_before, "model as it is, best fit (estimate)");
-    add(after, symbol::line_after, "model " + second + ", best fit (estimate)");
-    add(tube, symbol::tube, "predicted tube " + second);
-    return out;
+    return legend_of({{measured, {symbol::measured, "measured interval"}},
+                      {suspect, {symbol::suspect, "suspected outlier"}},
+                      {before, {symbol::line_before, "model as it is, best fit (estimate)"}},
+                      {after, {symbol::line_after, "model " + second + ", best fit (estimate)"}},
+                      {tube, {symbol::tube, "predicted tube " + second}}});
 }
 
 SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_options const& o) {
     auto const plain = detail::plain_series(c);
     svg out{o.width, o.height, (o.title.empty() ? c.name : o.title) + ", before and after"};
-    axes const a{{"time", "s", is_empty(o.time) ? detail::time_range(plain) : o.time},
-                 {c.name, c.unit, detail::value_range(plain)},
-                 {.width = o.width, .height = o.height, .title = o.title}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    auto const a = detail::time_axes(o, detail::time_range(plain),
+                                     {c.name, c.unit, detail::value_range(plain)});
+    a.open(out);
     detail::draw_tube(out, a, c.tube);
     std::size_t const stride = c.measured.size() / std::max<std::size_t>(o.most_samples, 1) + 1;
-    std::vector<measured_sample const*> marked;
-    for (std::size_t i = 0; i < c.measured.size(); ++i) {
-        measured_sample const& m = c.measured[i];
-        if (!is_finite(m.value) || !std::isfinite(m.time)) continue;
-        if (m.state != sample_state::regular) {
-            marked.push_back(&m);
-        } else if (i % stride == 0) {
-            draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::frame,
-                          stride == 1 ? detail::sample_tip(plain, m) : "");
-        }
-    }
+    auto const marked = detail::draw_regular(out, a, plain, stride, palette::frame);
     // Lines above the bars: it is they that are compared.
     detail::draw_reference(out, a, c.before, line_before_paint);
     detail::draw_reference(out, a, c.after, line_after_paint);
@@ -81,11 +63,9 @@ SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_option
         detail::draw_outlier(out, a, *marked[i], approximate_middle(marked[i]->value),
                              detail::sample_tip(plain, *marked[i]));
     }
-    out.close();
-    a.draw_frame(out);
+    a.close(out);
     if (c.measured.empty() && c.before.empty() && c.after.empty() && c.tube.empty()) {
-        out.text((a.left() + a.right()) / 2, (a.top() + a.bottom()) / 2, "no data",
-                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
+        a.say(out, "no data");
     }
     return out;
 }
@@ -128,14 +108,6 @@ SIVID_DECL heat_map misfit_map(std::vector<comparison_series> const& channels, b
         out.values.push_back(std::move(row));
     }
     return out;
-}
-
-SIVID_DECL double largest_value(heat_map const& m) {
-    double largest = 0;
-    for (auto const& row : m.values) {
-        for (double const v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
-    }
-    return largest;
 }
 
 } // namespace sivid::report

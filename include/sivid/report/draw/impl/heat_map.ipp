@@ -6,6 +6,14 @@
 
 namespace sivid::report {
 
+SIVID_DECL double largest_value(heat_map const& m) {
+    double largest = 0;
+    for (auto const& row : m.values) {
+        for (double const v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
+    }
+    return largest;
+}
+
 SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
     double const top = o.title.empty() ? 10 : 34;
     double const pitch = 26;
@@ -18,16 +26,9 @@ SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
     }
     double const left = std::min(label_width + 12, o.width * 0.4), right = o.width - 14;
     range span;
-    for (double const t : m.times) {
-        span = hull(span, t);
-    }
+    for (double const t : m.times) span = hull(span, t);
     span = axis_range(span);
-    double largest = 0;
-    for (auto const& row : m.values) {
-        for (double const v : row) {
-            largest = std::isfinite(v) ? std::max(largest, v) : largest;
-        }
-    }
+    double largest = largest_value(m);
     double const full = m.threshold > 0 ? m.threshold : 1;
     largest = std::isfinite(o.largest) ? std::max(largest, o.largest) : largest;
     // Beyond a thousand times the threshold all is one colour, so that one wild value leaves the
@@ -43,9 +44,7 @@ SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
     auto const px = [&](double t) {
         return left + (right - left) * std::clamp((t - span.lo) / (span.hi - span.lo), 0.0, 1.0);
     };
-    if (!o.title.empty()) {
-        out.text(0, 16, o.title, {.size = 13, .bold = true});
-    }
+    if (!o.title.empty()) out.text(0, 16, o.title, {.size = 13, .bold = true});
     std::string const unknown = out.hatch("#ffffff", palette::grid);
     out.rect(left, top, right - left, bottom - top, {.fill = unknown});
     path_data crosses;
@@ -56,9 +55,7 @@ SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
              r < m.values.size() && c < m.values[r].size() && c + 1 < m.times.size(); ++c) {
             double const v = m.values[r][c];
             double const x = px(m.times[c]), w = px(m.times[c + 1]) - x;
-            if (std::isnan(v) || std::isnan(x) || std::isnan(w)) {
-                continue;
-            }
+            if (std::isnan(v) || std::isnan(x) || std::isnan(w)) continue;
             std::string const fill = colour(v);
             out.rect(x, y, w + 0.3, pitch, {.fill = fill}, 0,
                      m.times.size() < 120 ? m.rows[r] + ": " + rounded_text(v, rounding::nearest)

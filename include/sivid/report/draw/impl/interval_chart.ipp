@@ -12,9 +12,7 @@ SIVID_DECL svg draw_interval_chart(std::vector<interval_row> const& rows,
     double const pitch = 52;
     svg out{o.width, top + pitch * static_cast<double>(std::max<std::size_t>(rows.size(), 1)) + 4,
             o.title.empty() ? "parameters" : o.title};
-    if (!o.title.empty()) {
-        out.text(0, 16, o.title, {.size = 13, .bold = true});
-    }
+    if (!o.title.empty()) out.text(0, 16, o.title, {.size = 13, .bold = true});
     double name_width = 40;
     for (interval_row const& r : rows) {
         name_width = std::max(name_width, approximate_text_width(shorten(r.name, 24), 13) + 14);

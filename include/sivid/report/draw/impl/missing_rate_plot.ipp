@@ -28,13 +28,6 @@ SIVID_DECL range rate_range(missing_rate_series const& s) {
     return with_margin(wanted, 0.06);
 }
 
-inline range rate_times(missing_rate_series const& s) {
-    range out;
-    for (rate_sample const& p : s.estimate) out = hull(out, p.time);
-    for (tube_piece const& t : s.certified) out = hull(hull(out, t.from), t.to);
-    return with_margin(axis_range(out), 0.015);
-}
-
 inline void draw_rate_band(svg& out, axes const& a, std::vector<rate_sample> const& all) {
     path_data band;
     std::vector<rate_sample const*> run;
@@ -73,24 +66,22 @@ missing_rate_legend(std::vector<missing_rate_series> const& all) {
             (zero ? idle : box) = true;
         }
     }
-    std::vector<legend_entry> out;
-    if (line) out.push_back({symbol::line_after, "estimate"});
-    if (band) out.push_back({symbol::prior, "its uncertainty (estimate)"});
-    if (box) out.push_back({symbol::certified_window, "window mean without zero (proved)"});
-    if (idle) out.push_back({symbol::measured_box, "window mean that may be zero (proved)"});
-    return out;
+    return legend_of({{line, {symbol::line_after, "estimate"}},
+                      {band, {symbol::prior, "its uncertainty (estimate)"}},
+                      {box, {symbol::certified_window, "window mean without zero (proved)"}},
+                      {idle, {symbol::measured_box, "window mean that may be zero (proved)"}}});
 }
 
 SIVID_DECL svg draw_missing_rate(missing_rate_series const& s, time_plot_options const& o,
                                  range values) {
+    channel_series plain{.tube = s.certified};
+    for (rate_sample const& p : s.estimate) plain.reference.push_back({p.time, p.value});
     svg out{o.width, o.height,
             "missing in " + s.equation + " over time" + (o.title.empty() ? "" : ", " + o.title)};
-    axes const a{
-        {"time", "s", is_empty(o.time) ? detail::rate_times(s) : o.time},
-        {"missing in " + s.equation, s.unit, is_empty(values) ? detail::rate_range(s) : values},
-        {.width = o.width, .height = o.height, .title = o.title}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    auto const a = detail::time_axes(
+        o, detail::time_range(plain),
+        {"missing in " + s.equation, s.unit, is_empty(values) ? detail::rate_range(s) : values});
+    a.open(out);
     detail::draw_rate_band(out, a, s.estimate);
     out.line(a.left(), a.py(0), a.right(), a.py(0), {.stroke = palette::ink, .width = 1.1});
     for (tube_piece const& t : s.certified) {
@@ -108,15 +99,9 @@ SIVID_DECL svg draw_missing_rate(missing_rate_series const& s, time_plot_options
             out.rect(left, top, wide, high, {.stroke = palette::inside, .width = 1.6});
         }
     }
-    std::vector<point> line;
-    for (rate_sample const& p : s.estimate) line.push_back({p.time, p.value});
-    detail::draw_reference(out, a, line, line_after_paint);
-    out.close();
-    a.draw_frame(out);
-    if (s.estimate.empty() && s.certified.empty()) {
-        out.text((a.left() + a.right()) / 2, a.top() + 16, "nothing known",
-                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
-    }
+    detail::draw_reference(out, a, plain.reference, line_after_paint);
+    a.close(out);
+    if (s.estimate.empty() && s.certified.empty()) a.say(out, "nothing known", a.top() + 16);
     return out;
 }
 

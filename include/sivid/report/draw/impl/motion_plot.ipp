@@ -16,19 +16,17 @@
 namespace sivid::report {
 
 SIVID_DECL std::vector<legend_entry> motion_plot_legend(std::vector<motion_series> const& all,
-                                                        motion_plot_options const& o) {
+                                                        std::string const& full) {
     auto const any = [&](auto const& has) { return std::any_of(all.begin(), all.end(), has); };
-    std::vector<legend_entry> out;
-    if (any([](motion_series const& m) { return !m.tube.tube.empty(); }))
-        out.push_back({symbol::tube, "all parameters and starts (proved)"});
-    if (any([](motion_series const& m) { return !m.single.empty(); }))
-        out.push_back({symbol::line_after, o.full});
-    if (any([](motion_series const& m) { return !m.tube.reference.empty(); }))
-        out.push_back({symbol::line_before, "least squares, not validated"});
-    return out;
+    return legend_of({{any([](motion_series const& m) { return !m.tube.tube.empty(); }),
+                       {symbol::tube, "all parameters and starts (proved)"}},
+                      {any([](motion_series const& m) { return !m.single.empty(); }),
+                       {symbol::line_after, full}},
+                      {any([](motion_series const& m) { return !m.tube.reference.empty(); }),
+                       {symbol::line_before, "least squares, not validated"}}});
 }
 
-SIVID_DECL svg draw_motion_plot(motion_series const& m, motion_plot_options const& o) {
+SIVID_DECL svg draw_motion_plot(motion_series const& m, time_plot_options const& o) {
     auto all = m.tube;
     all.reference.insert(all.reference.end(), m.single.begin(), m.single.end());
     auto values = detail::value_range(all);
@@ -37,11 +35,9 @@ SIVID_DECL svg draw_motion_plot(motion_series const& m, motion_plot_options cons
         values = with_margin(values, 0.03);
     }
     svg out{o.width, o.height, (o.title.empty() ? m.tube.name : o.title) + " over time"};
-    axes const a{{"time", "s", detail::time_range(all)},
-                 {m.tube.name, m.tube.unit, values},
-                 {.width = o.width, .height = o.height, .title = o.title}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    auto const a =
+        detail::time_axes(o, detail::time_range(all), {m.tube.name, m.tube.unit, values});
+    a.open(out);
     if (m.zero) {
         double const y = a.py(0);
         out.rect(a.left(), y, a.right() - a.left(), std::max(0.0, a.bottom() - y),
@@ -52,8 +48,7 @@ SIVID_DECL svg draw_motion_plot(motion_series const& m, motion_plot_options cons
         out.line(a.left(), a.py(0), a.right(), a.py(0), {.stroke = palette::ink, .width = 1.3});
     detail::draw_reference(out, a, m.tube.reference, line_before_paint);
     detail::draw_reference(out, a, m.single, line_after_paint);
-    out.close();
-    a.draw_frame(out);
+    a.close(out);
     return out;
 }
 

@@ -16,9 +16,7 @@ SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p, d
                 w.y = hull(w.y, intersect(b.y, whole_y));
             }
         }
-        if (is_empty(w.x) || is_empty(w.y)) {
-            continue;
-        }
+        if (is_empty(w.x) || is_empty(w.y)) continue;
         w.x = intersect(with_margin(axis_range(w.x), 0.08), whole_x);
         w.y = intersect(with_margin(axis_range(w.y), 0.08), whole_y);
         double const share = approximate_width(w.x) / approximate_width(whole_x) *
@@ -94,25 +92,16 @@ SIVID_DECL std::vector<legend_entry> paving_plot_legend(std::vector<paving_proje
     bool used[4] = {true, false, false, false};
     bool witness = false, zoom = false;
     for (paving_projection const& p : all) {
-        for (projected_box const& b : p.boxes) {
-            used[static_cast<std::size_t>(b.verdict)] = true;
-        }
+        for (projected_box const& b : p.boxes) used[static_cast<std::size_t>(b.verdict)] = true;
         witness = witness || p.witness.has_value();
         zoom = zoom || zoom_window(p).has_value();
     }
-    std::vector<legend_entry> out;
-    auto const add = [&](bool wanted, symbol mark, std::string const& label) {
-        if (wanted) {
-            out.push_back({mark, label});
-        }
-    };
-    add(used[3], symbol::inside, words.inside);
-    add(used[2], symbol::undecided, "undecided");
-    add(used[1], symbol::pending, "pending: not looked at closely");
-    add(true, symbol::outside, words.outside);
-    add(witness, symbol::witness, words.point);
-    add(zoom, symbol::window, "what the closer look shows");
-    return out;
+    return legend_of({{used[3], {symbol::inside, words.inside}},
+                      {used[2], {symbol::undecided, "undecided"}},
+                      {used[1], {symbol::pending, "pending: not looked at closely"}},
+                      {true, {symbol::outside, words.outside}},
+                      {witness, {symbol::witness, words.point}},
+                      {zoom, {symbol::window, "what the closer look shows"}}});
 }
 
 SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options const& o) {
@@ -121,17 +110,14 @@ SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options 
     axes const a{{p.x.label, p.x.unit, is_empty(o.x_window) ? p.x.bounds : o.x_window},
                  {p.y.label, p.y.unit, is_empty(o.y_window) ? p.y.bounds : o.y_window},
                  {.width = o.width, .height = o.height, .title = o.title, .grid = false}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    a.open(out);
     out.rect(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top(),
              {.fill = palette::outside});
 
     path_data shapes[4];
     for (std::size_t cells = std::max<std::size_t>(o.finest, 4);; cells /= 2) {
         region_raster const raster = project_paving(p.boxes, a.x_bounds(), a.y_bounds(), cells);
-        for (path_data& d : shapes) {
-            d = {};
-        }
+        for (path_data& d : shapes) d = {};
         for (region_rect const& r : merge_cells(raster)) {
             double const x = a.px(raster.xs[r.left]), y = a.py(raster.ys[r.high]);
             shapes[static_cast<std::size_t>(r.what)].rect(x, y, a.px(raster.xs[r.right]) - x,
@@ -160,8 +146,7 @@ SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options 
     if (p.witness && is_finite(*p.witness)) {
         draw_witness(out, a.px(p.witness->x), a.py(p.witness->y), "witness: a verified point");
     }
-    out.close();
-    a.draw_frame(out);
+    a.close(out);
     return out;
 }
 

@@ -12,17 +12,13 @@ SIVID_DECL paving_projection projection(named_paving const& p, std::size_t a, st
         return range{lower(set[j]), upper(set[j])};
     };
     for (paved_box const& piece : p.paving->boxes()) {
-        if (piece.verdict == box_verdict::outside) {
-            continue;
-        }
+        if (piece.verdict == box_verdict::outside) continue;
         out.boxes.push_back({side(piece.set, a), side(piece.set, b),
                              piece.verdict == box_verdict::inside      ? region::inside
                              : piece.verdict == box_verdict::undecided ? region::undecided
                                                                        : region::pending});
     }
-    if (!p.witness.empty()) {
-        out.witness = point{p.witness[a], p.witness[b]};
-    }
+    if (!p.witness.empty()) out.witness = point{p.witness[a], p.witness[b]};
     return out;
 }
 
@@ -30,9 +26,7 @@ SIVID_DECL std::vector<paving_projection>
 projections(named_paving const& p, std::vector<std::size_t> const& first, std::size_t most) {
     std::vector<std::size_t> order;
     for (std::size_t j = 0; j < p.sides.size(); ++j) {
-        if (p.sides[j].bounds.lo < p.sides[j].bounds.hi) {
-            order.push_back(j);
-        }
+        if (p.sides[j].bounds.lo < p.sides[j].bounds.hi) order.push_back(j);
     }
     auto const share = [&](std::size_t j) {
         return approximate_width(p.hull[j]) / approximate_width(p.sides[j].bounds);
@@ -44,9 +38,7 @@ projections(named_paving const& p, std::vector<std::size_t> const& first, std::s
     }
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t a = 0; a < order.size(); ++a) {
-        for (std::size_t b = a + 1; b < order.size(); ++b) {
-            pairs.emplace_back(order[a], order[b]);
-        }
+        for (std::size_t b = a + 1; b < order.size(); ++b) pairs.emplace_back(order[a], order[b]);
     }
     std::stable_partition(pairs.begin(), pairs.end(), [&](auto const& pair) {
         return std::count(first.begin(), first.end(), pair.first) +
@@ -55,9 +47,7 @@ projections(named_paving const& p, std::vector<std::size_t> const& first, std::s
     });
     pairs.resize(std::min(pairs.size(), most));
     std::vector<paving_projection> out;
-    for (auto const& [a, b] : pairs) {
-        out.push_back(projection(p, a, b));
-    }
+    for (auto const& [a, b] : pairs) out.push_back(projection(p, a, b));
     return out;
 }
 

@@ -26,17 +26,13 @@ inline bool axis_breaks(std::vector<projected_box> const& boxes, range projected
         if (b.verdict != region::outside && shows(window, r)) {
             thin = thin || r.lo == r.hi;
             for (double const end : {r.lo, r.hi}) {
-                if (end > window.lo && end < window.hi) {
-                    out.push_back(end);
-                }
+                if (end > window.lo && end < window.hi) out.push_back(end);
             }
         }
     }
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
-    if (out.size() <= most + 1 && !thin) {
-        return true;
-    }
+    if (out.size() <= most + 1 && !thin) return true;
     out.resize(most + 1);
     for (std::size_t i = 0; i <= most; ++i) {
         double const share = static_cast<double>(i) / static_cast<double>(most);
@@ -91,9 +87,7 @@ SIVID_DECL region_raster project_paving(std::vector<projected_box> const& boxes,
                 along += change[r * stride + c];
                 std::int32_t const above = along + (r > 0 ? change[(r - 1) * stride + c] : 0);
                 change[r * stride + c] = above;
-                if (above > 0) {
-                    out.cells[r * columns + c] = what;
-                }
+                if (above > 0) out.cells[r * columns + c] = what;
             }
         }
     }
@@ -109,20 +103,14 @@ SIVID_DECL std::vector<region_rect> merge_cells(region_raster const& raster) {
         for (std::size_t c = 0; r < raster.rows() && c < raster.columns();) {
             region const what = raster.at(c, r);
             std::size_t end = c + 1;
-            while (end < raster.columns() && raster.at(end, r) == what) {
-                ++end;
-            }
-            if (what != region::outside) {
-                row_runs.push_back({c, end, r, r + 1, what});
-            }
+            while (end < raster.columns() && raster.at(end, r) == what) ++end;
+            if (what != region::outside) row_runs.push_back({c, end, r, r + 1, what});
             c = end;
         }
         // Both lists are ordered by their left end: one pass finds the runs that go on.
         std::size_t k = 0;
         for (region_rect& run : row_runs) {
-            while (k < open.size() && open[k].left < run.left) {
-                done.push_back(open[k++]);
-            }
+            while (k < open.size() && open[k].left < run.left) done.push_back(open[k++]);
             if (k < open.size() && open[k].left == run.left && open[k].right == run.right &&
                 open[k].what == run.what) {
                 run.low = open[k++].low;

@@ -7,20 +7,10 @@
 namespace sivid::report {
 
 SIVID_DECL std::vector<legend_entry> plane_plot_legend(plane_series const& s) {
-    std::vector<legend_entry> out;
-    if (!s.tube.empty()) {
-        out.push_back({symbol::tube, "proven enclosure of the motion"});
-    }
-    if (!s.measured.empty()) {
-        out.push_back({symbol::measured_box, "measured position"});
-    }
-    if (!s.reference.empty()) {
-        out.push_back({symbol::reference, "reference, not validated"});
-    }
-    if (!s.poses.empty()) {
-        out.push_back({symbol::heading, "heading on the reference"});
-    }
-    return out;
+    return legend_of({{!s.tube.empty(), {symbol::tube, "proven enclosure of the motion"}},
+                      {!s.measured.empty(), {symbol::measured_box, "measured position"}},
+                      {!s.reference.empty(), {symbol::reference, "reference, not validated"}},
+                      {!s.poses.empty(), {symbol::heading, "heading on the reference"}}});
 }
 
 namespace detail {
@@ -56,17 +46,11 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
             ys = hull(ys, b.y);
         }
     };
-    for (plane_box const& b : s.measured) {
-        include(b);
-    }
-    for (point const& p : s.reference) {
-        include({{p.x, p.x}, {p.y, p.y}});
-    }
+    for (plane_box const& b : s.measured) include(b);
+    for (point const& p : s.reference) include({{p.x, p.x}, {p.y, p.y}});
     // A tube that bursts must not hide the measurements.
     range const x_core = xs, y_core = ys;
-    for (plane_box const& b : s.tube) {
-        include(b);
-    }
+    for (plane_box const& b : s.tube) include(b);
     if (!is_empty(x_core)) {
         double const room = std::max({approximate_width(x_core), approximate_width(y_core), 1e-9});
         xs = intersect(xs, {x_core.lo - room, x_core.hi + room});
@@ -75,14 +59,11 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
     axes const a{{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
                  {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
                  {.width = o.width, .height = o.height, .title = o.title, .equal_aspect = true}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    a.open(out);
     constexpr std::size_t most_boxes = 4000;
     path_data boxes;
     for (plane_box const& b : detail::joined(s.tube, most_boxes)) {
-        if (!is_empty(b.x) && !is_empty(b.y)) {
-            detail::add_box(boxes, a, b, 1.2);
-        }
+        if (!is_empty(b.x) && !is_empty(b.y)) detail::add_box(boxes, a, b, 1.2);
     }
     // One path: where boxes overlap, the colour does not add up.
     out.path(boxes,
@@ -90,17 +71,13 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
     path_data line;
     bool down = false;
     for (point const& p : s.reference) {
-        if (is_finite(p)) {
-            down ? line.line(a.px(p.x), a.py(p.y)) : line.move(a.px(p.x), a.py(p.y));
-        }
+        if (is_finite(p)) down ? line.line(a.px(p.x), a.py(p.y)) : line.move(a.px(p.x), a.py(p.y));
         down = is_finite(p);
     }
     out.path(line, {.stroke = palette::truth, .width = 1.5, .dash = "5 3"});
     path_data measured;
     for (plane_box const& b : detail::joined(s.measured, most_boxes)) {
-        if (is_finite(b.x) && is_finite(b.y)) {
-            detail::add_box(measured, a, b, 3);
-        }
+        if (is_finite(b.x) && is_finite(b.y)) detail::add_box(measured, a, b, 3);
     }
     out.path(measured, {.stroke = palette::measurement, .width = 1});
     path_data arrows;
@@ -119,12 +96,8 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
                  {.fill = palette::paper, .opacity = 0.8}, 3);
         out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
     }
-    out.close();
-    a.draw_frame(out);
-    if (boxes.empty() && measured.empty() && line.empty()) {
-        out.text((a.left() + a.right()) / 2, (a.top() + a.bottom()) / 2, "no data",
-                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
-    }
+    a.close(out);
+    if (boxes.empty() && measured.empty() && line.empty()) a.say(out, "no data");
     return out;
 }
 

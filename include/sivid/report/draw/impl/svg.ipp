@@ -11,12 +11,8 @@ SIVID_DECL std::string coordinate(double value) {
     char text[32];
     auto const end = std::to_chars(text, text + sizeof text, safe, std::chars_format::fixed, 2).ptr;
     std::string_view out{text, static_cast<std::size_t>(end - text)};
-    while (out.back() == '0') {
-        out.remove_suffix(1);
-    }
-    if (out.back() == '.') {
-        out.remove_suffix(1);
-    }
+    while (out.back() == '0') out.remove_suffix(1);
+    if (out.back() == '.') out.remove_suffix(1);
     return out == "-0" ? "0" : std::string{out};
 }
 
@@ -128,9 +124,7 @@ SIVID_DECL std::string svg::str(std::string_view id_prefix) const {
         all += open_.substr(start, end - start);
         end = start;
     }
-    for (char const c : all) {
-        c == prefix_mark ? out += escape(id_prefix) : out += c;
-    }
+    for (char const c : all) c == prefix_mark ? out += escape(id_prefix) : out += c;
     return out + "</svg>\n";
 }
 

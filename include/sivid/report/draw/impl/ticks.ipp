@@ -8,9 +8,7 @@ namespace sivid::report {
 
 SIVID_DECL range axis_range(range const& data) {
     constexpr double largest = 1e300;
-    if (is_empty(data) || (!std::isfinite(data.lo) && !std::isfinite(data.hi))) {
-        return {0, 1};
-    }
+    if (is_empty(data) || (!std::isfinite(data.lo) && !std::isfinite(data.hi))) return {0, 1};
     double lo = std::isfinite(data.lo) ? data.lo : data.hi;
     double hi = std::isfinite(data.hi) ? data.hi : data.lo;
     lo = std::clamp(lo, -largest, largest);

@@ -17,21 +17,32 @@ SIVID_DECL std::vector<legend_entry> time_plot_legend(std::vector<channel_series
             suspect = suspect || m.state == sample_state::suspect;
         }
     }
-    std::vector<legend_entry> out;
-    auto const add = [&](bool used, symbol mark, char const* label) {
-        if (used) {
-            out.push_back({mark, label});
-        }
-    };
-    add(measured, symbol::measured, "measured interval");
-    add(tube, symbol::tube, "proven enclosure of the model");
-    add(forced, symbol::forced_outlier, "outlier (proved)");
-    add(suspect, symbol::suspect, "suspected outlier");
-    add(reference, symbol::reference, "reference, not validated");
-    return out;
+    return legend_of({{measured, {symbol::measured, "measured interval"}},
+                      {tube, {symbol::tube, "proven enclosure of the model"}},
+                      {forced, {symbol::forced_outlier, "outlier (proved)"}},
+                      {suspect, {symbol::suspect, "suspected outlier"}},
+                      {reference, {symbol::reference, "reference, not validated"}}});
 }
 
 namespace detail {
+
+SIVID_DECL std::vector<measured_sample const*> draw_regular(svg& out, axes const& a,
+                                                            channel_series const& c,
+                                                            std::size_t stride,
+                                                            std::string_view colour) {
+    std::vector<measured_sample const*> marked;
+    for (std::size_t i = 0; i < c.measured.size(); ++i) {
+        measured_sample const& m = c.measured[i];
+        if (!is_finite(m.value) || !std::isfinite(m.time)) continue;
+        if (m.state != sample_state::regular) {
+            marked.push_back(&m);
+        } else if (i % stride == 0) {
+            draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), colour,
+                          stride == 1 ? sample_tip(c, m) : "");
+        }
+    }
+    return marked;
+}
 
 SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube) {
     struct column {
@@ -41,9 +52,7 @@ SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const
     path_data band;
     path_data edge;
     auto const flush = [&] {
-        if (run.empty()) {
-            return;
-        }
+        if (run.empty()) return;
         band.move(run.front().left, run.front().top);
         edge.move(run.front().left, run.front().top);
         for (column const& c : run) {
@@ -59,16 +68,12 @@ SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const
         run.clear();
     };
     for (tube_piece const& t : tube) {
-        if (is_empty(t.value) || !(t.from <= t.to)) {
-            continue;
-        }
+        if (is_empty(t.value) || !(t.from <= t.to)) continue;
         column c{a.px(t.from), a.px(t.to), a.py(t.value.hi), a.py(t.value.lo)};
         double const thin = std::max(0.0, 1.2 - (c.bottom - c.top)) / 2;
         c.top -= thin;
         c.bottom += thin;
-        if (!run.empty() && std::abs(c.left - run.back().right) > 0.02) {
-            flush();
-        }
+        if (!run.empty() && std::abs(c.left - run.back().right) > 0.02) flush();
         if (!run.empty() && run.back().right - run.back().left < 0.5) {
             run.back() = {run.back().left, c.right, std::min(c.top, run.back().top),
                           std::max(c.bottom, run.back().bottom)};
@@ -92,9 +97,7 @@ SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const
             continue;
         }
         double const x = a.px(p.x), y = a.py(p.y);
-        if (pen_down && std::abs(x - last_x) + std::abs(y - last_y) < 0.5) {
-            continue;
-        }
+        if (pen_down && std::abs(x - last_x) + std::abs(y - last_y) < 0.5) continue;
         pen_down ? d.line(x, y) : d.move(x, y);
         pen_down = true;
         last_x = x;
@@ -117,6 +120,13 @@ SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, 
     }
 }
 
+/// Says that regular samples are left out.
+inline void say_stride(svg& out, axes const& a, std::size_t stride) {
+    if (stride == 1) return;
+    out.text(a.right(), a.top() - 11, "1 in " + std::to_string(stride) + " drawn",
+             {.size = 10, .align = anchor::end, .fill = palette::muted_ink});
+}
+
 } // namespace detail
 
 SIVID_DECL svg draw_time_plot(channel_series const& c, time_plot_options const& o) {
@@ -124,28 +134,14 @@ SIVID_DECL svg draw_time_plot(channel_series const& c, time_plot_options const& 
     svg measure{0, 0, ""};
     double const below = draw_legend(measure, entries, 0, 0, o.width - 60);
     svg out{o.width, o.height + below, (o.title.empty() ? c.name : o.title) + " over time"};
-    axes const a{{"time", "s", is_empty(o.time) ? detail::time_range(c) : o.time},
-                 {c.name, c.unit, detail::value_range(c)},
-                 {.width = o.width, .height = o.height, .title = o.title}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    auto const a =
+        detail::time_axes(o, detail::time_range(c), {c.name, c.unit, detail::value_range(c)});
+    a.open(out);
     detail::draw_tube(out, a, c.tube);
     detail::draw_reference(out, a, c.reference);
 
     std::size_t const stride = c.measured.size() / std::max<std::size_t>(o.most_samples, 1) + 1;
-    std::vector<measured_sample const*> marked;
-    for (std::size_t i = 0; i < c.measured.size(); ++i) {
-        measured_sample const& m = c.measured[i];
-        if (!is_finite(m.value) || !std::isfinite(m.time)) {
-            continue;
-        }
-        if (m.state != sample_state::regular) {
-            marked.push_back(&m);
-        } else if (i % stride == 0) {
-            draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi),
-                          palette::measurement, stride == 1 ? detail::sample_tip(c, m) : "");
-        }
-    }
+    auto const marked = detail::draw_regular(out, a, c, stride, palette::measurement);
     for (std::size_t i = 0; i < marked.size(); ++i) {
         measured_sample const& m = *marked[i];
         draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::outlier);
@@ -153,14 +149,11 @@ SIVID_DECL svg draw_time_plot(channel_series const& c, time_plot_options const& 
             detail::draw_outlier(out, a, m, approximate_middle(m.value), detail::sample_tip(c, m));
         }
     }
-    out.close();
-    a.draw_frame(out);
+    a.close(out);
     if (c.measured.empty() && c.tube.empty() && c.reference.empty()) {
-        out.text((a.left() + a.right()) / 2, (a.top() + a.bottom()) / 2, "no data",
-                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
-    } else if (stride > 1) {
-        out.text(a.right(), a.top() - 11, std::string{"1 in "} + std::to_string(stride) + " drawn",
-                 {.size = 10, .align = anchor::end, .fill = palette::muted_ink});
+        a.say(out, "no data");
+    } else {
+        detail::say_stride(out, a, stride);
     }
     draw_legend(out, entries, a.left(), o.height + 4, o.width - 60);
     return out;
@@ -185,11 +178,8 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
             shown = hull(hull(shown, std::clamp(r.lo, -4.0, 4.0)), std::clamp(r.hi, -4.0, 4.0));
         }
     }
-    axes const a{{"time", "s", is_empty(o.time) ? detail::time_range(c) : o.time},
-                 {"model / bound", "", shown},
-                 {.width = o.width, .height = o.height, .title = o.title}};
-    a.draw_ground(out);
-    out.clip(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top());
+    auto const a = detail::time_axes(o, detail::time_range(c), {"model / bound", "", shown});
+    a.open(out);
     out.rect(a.left(), a.py(1), a.right() - a.left(), a.py(-1) - a.py(1), {.fill = "#eef2f6"});
     out.path(path_data{}
                  .move(a.left(), a.py(1))
@@ -201,9 +191,7 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < c.measured.size(); ++i) {
         measured_sample const& m = c.measured[i];
-        if (!has_residual(m) || (m.state == sample_state::regular && i % stride != 0)) {
-            continue;
-        }
+        if (!has_residual(m) || (m.state == sample_state::regular && i % stride != 0)) continue;
         ++drawn;
         range const r = approximate_residual(m);
         double const top = a.py(r.hi), low = a.py(r.lo), x = a.px(m.time);
@@ -217,14 +205,11 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
             detail::draw_outlier(out, a, m, approximate_middle(r), tip);
         }
     }
-    out.close();
-    a.draw_frame(out);
+    a.close(out);
     if (drawn == 0) {
-        out.text((a.left() + a.right()) / 2, a.py(0) + 4, "no enclosure at the samples",
-                 {.size = 12, .align = anchor::middle, .fill = palette::muted_ink});
-    } else if (stride > 1) {
-        out.text(a.right(), a.top() - 11, std::string{"1 in "} + std::to_string(stride) + " drawn",
-                 {.size = 10, .align = anchor::end, .fill = palette::muted_ink});
+        a.say(out, "no enclosure at the samples", a.py(0) + 4);
+    } else {
+        detail::say_stride(out, a, stride);
     }
     return out;
 }

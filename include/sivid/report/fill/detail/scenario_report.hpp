@@ -57,18 +57,12 @@ public:
         }
         std::vector<std::size_t> measured;
         for (std::size_t c = 0; c < all.size(); ++c) {
-            if (!all[c].measured.empty()) {
-                measured.push_back(c);
-            }
+            if (!all[c].measured.empty()) measured.push_back(c);
         }
         add_tube(all);
         auto const line = add_reference(all);
-        if (names_) {
-            out.plane = plane(all, samples, line);
-        }
-        for (std::size_t const c : measured) {
-            out.channels.push_back(std::move(all[c]));
-        }
+        if (names_) out.plane = plane(all, samples, line);
+        for (std::size_t const c : measured) out.channels.push_back(std::move(all[c]));
         return out;
     }
 
@@ -77,9 +71,7 @@ private:
 
     [[nodiscard]] sample_state state_of(std::size_t i) const {
         for (forced_outlier const& f : found_.forced) {
-            if (f.experiment == e_ && f.measurement == i) {
-                return sample_state::forced_outlier;
-            }
+            if (f.experiment == e_ && f.measurement == i) return sample_state::forced_outlier;
         }
         bool const violated = found_.witness && e_ < found_.witness->violated.size() &&
                               i < found_.witness->violated[e_].size() &&
@@ -88,9 +80,7 @@ private:
     }
 
     void add_tube(std::vector<channel_series>& all) const {
-        if (motion_ == nullptr) {
-            return;
-        }
+        if (motion_ == nullptr) return;
         auto const& tube = *motion_->tubes[e_];
         observer<interval> look(*motion_->flows[e_]);
         ensemble<interval> const family(motion_->starts[e_], motion_->parameters);
@@ -99,9 +89,7 @@ private:
             if (keep_going_ && !keep_going_()) return;
             auto const y = look.over(step.from, interval(step.from, step.to), step.swept);
             for (std::size_t c = 0; c < all.size(); ++c) {
-                if (is_finite(range{y[c]})) {
-                    all[c].tube.push_back({step.from, step.to, y[c]});
-                }
+                if (is_finite(range{y[c]})) all[c].tube.push_back({step.from, step.to, y[c]});
             }
         }
     }
@@ -110,15 +98,11 @@ private:
     [[nodiscard]] approximate_trajectory add_reference(std::vector<channel_series>& all) const {
         approximate_trajectory line;
         auto const point = reference_point();
-        if (point == nullptr || motion_ == nullptr) {
-            return line;
-        }
+        if (point == nullptr || motion_ == nullptr) return line;
         auto const& s = problem_.experiments[e_];
         double const end = s.end();
         std::vector<double> times;
-        for (int k = 0; k <= 240; ++k) {
-            times.push_back(s.begin + (end - s.begin) * k / 240);
-        }
+        for (int k = 0; k <= 240; ++k) times.push_back(s.begin + (end - s.begin) * k / 240);
         auto const start = found_.witness ? found_.witness->starts[e_] : found_.guess->starts[e_];
         try {
             auto const& f = *motion_->flows[e_];
@@ -135,9 +119,7 @@ private:
         return line;
     }
     [[nodiscard]] std::vector<double> const* reference_point() const {
-        if (found_.witness) {
-            return &found_.witness->parameters;
-        }
+        if (found_.witness) return &found_.witness->parameters;
         return found_.guess && !found_.guess->parameters.empty() ? &found_.guess->parameters
                                                                  : nullptr;
     }
@@ -151,9 +133,7 @@ private:
             return static_cast<std::size_t>(found - all.begin());
         };
         auto const x = channel(names_->x), y = channel(names_->y);
-        if (x == all.size() || y == all.size()) {
-            return std::nullopt;
-        }
+        if (x == all.size() || y == all.size()) return std::nullopt;
         plane_series out{.x_name = all[x].name, .y_name = all[y].name, .unit = all[x].unit};
         for (std::size_t k = 0; k < std::min(all[x].tube.size(), all[y].tube.size()); ++k) {
             out.tube.push_back({all[x].tube[k].value, all[y].tube[k].value});

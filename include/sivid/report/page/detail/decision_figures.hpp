@@ -95,20 +95,14 @@ inline void add_motions(page& out, prediction const& found, decision_page_option
         all.push_back(
             series_with_lines(found.times, found.states[i], o, &simulated_line::states, i));
     }
-    motion_plot_options options;
-    options.full = o.single_is;
-    figure f{.panels = {},
-             .legend = motion_plot_legend(all, options),
+    figure f{.legend = motion_plot_legend(all, o.single_is),
              .title = "The motion, for all parameters and starts.",
              .caption = std::string{"The band is proved: every motion of the model, for every "
                                     "parameter that the identification leaves and every start of "
                                     "the scenario, runs within it at every instant"} +
                         (found.complete ? "" : " at which there is one") +
                         ". The lines are simulated in floating point and prove nothing."};
-    for (auto const& m : all) {
-        options.title = m.tube.name;
-        f.panels.push_back(draw_motion_plot(m, options));
-    }
+    for (auto const& m : all) f.panels.push_back(draw_motion_plot(m, {.title = m.tube.name}));
     out.add(f);
 }
 
@@ -132,27 +126,22 @@ inline void add_margins(page& out, requirement const& asked, prediction const& t
         m.zero = true;
         margins.push_back(std::move(m));
     }
-    motion_plot_options options;
-    options.full = o.single_is;
-    figure f{.panels = {},
-             .legend = motion_plot_legend(margins, options),
+    figure f{.legend = motion_plot_legend(margins, o.single_is),
              .title = "The margins of the comparisons, for all parameters and starts.",
              .caption = "A comparison holds where its margin is above 0, each of its margins if it "
                         "has several sides. The requirement's text says when it has to."};
-    for (std::size_t c = 0; c < margins.size(); ++c) {
-        options.title = margin_title(asked.labels, c);
-        f.panels.push_back(draw_motion_plot(margins[c], options));
-    }
+    for (std::size_t c = 0; c < margins.size(); ++c)
+        f.panels.push_back(draw_motion_plot(margins[c], {.title = margin_title(asked.labels, c)}));
     out.section("The requirement against the tube");
     out.add(f);
 }
 
-inline void add_parameters(page& out, stored_prediction const& about,
-                           decision_page_options const& o) {
+/// The end of a page: the parameters that it speaks of, and what it rests on.
+inline void add_basis(page& out, stored_prediction const& about, decision_page_options const& o,
+                      std::vector<std::string> const& assumptions) {
     out.section("For which parameters");
     auto const around = about.problem.around();
-    table t{.columns = {{"quantity", column_kind::symbol}, {"range", column_kind::number}},
-            .rows = {}};
+    table t{.columns = {{"quantity", column_kind::symbol}, {"range", column_kind::number}}};
     for (std::size_t j = 0; j < around.size(); ++j)
         t.rows.push_back({formula_text(about.sides[j]), text_of(around[j])});
     t.caption = "The smallest ranges around the union of " + count_text(about.problem.sets.size()) +
@@ -161,8 +150,7 @@ inline void add_parameters(page& out, stored_prediction const& about,
     out.add(t);
     if (!o.set.empty()) out.bullets(o.set);
     table starts{
-        .columns = {{"state", column_kind::symbol}, {"start", column_kind::number}, {"unit"}},
-        .rows = {}};
+        .columns = {{"state", column_kind::symbol}, {"start", column_kind::number}, {"unit"}}};
     auto const& states = about.problem.model.about.states;
     for (std::size_t i = 0; i < states.size(); ++i) {
         range const start = about.problem.initial[i];
@@ -172,6 +160,8 @@ inline void add_parameters(page& out, stored_prediction const& about,
                                unit_text(states[i].unit)});
     }
     out.add(starts);
+    out.assumptions(assumptions);
+    out.footer(o.footer);
 }
 
 } // namespace detail

@@ -77,8 +77,7 @@ SIVID_DECL table change_table(diagnosis_view const& v) {
                         {"value", column_kind::number},
                         {"proved range", column_kind::number},
                         {"unit"},
-                        {"of", column_kind::note}},
-            .rows = {}};
+                        {"of", column_kind::note}}};
     cause const* const c = answer_of(v);
     if (c == nullptr) return t;
     for (auto const& [e, verified] : parameters_of(*c)) {
@@ -98,7 +97,6 @@ SIVID_DECL table cost_table(diagnosis_view const& v) {
                         {"by", column_kind::number},
                         {"in error bounds", column_kind::number},
                         {"with it, at most", column_kind::number}},
-            .rows = {},
             .caption =
                 "Of best fits (estimates). With it: the largest misfit of any channel there, "
                 "in error bounds."};

@@ -19,8 +19,7 @@ SIVID_DECL figure misfit_figure(diagnosis_view const& v) {
         largest = std::max({largest, largest_value(p.before), largest_value(p.after)});
         if (!p.before.times.empty() || !p.after.times.empty()) maps.push_back(std::move(p));
     }
-    figure f{.panels = {},
-             .title = "Misfit over time.",
+    figure f{.title = "Misfit over time.",
              .caption = "Largest |residual| / bound of the best fit (estimate) in each time span: "
                         "blue is within the bounds, orange with a cross beyond, hatched without a "
                         "sample. Suspected outliers are left out. All maps share one colour scale.",
@@ -60,8 +59,7 @@ SIVID_DECL std::vector<figure> missing_rate_figures(std::vector<missing_rate_ser
                 values = hull(values, detail::rate_range(s));
             }
         }
-        figure f{.panels = {},
-                 .legend = missing_rate_legend(all),
+        figure f{.legend = missing_rate_legend(all),
                  .title = "Missing in the " + e + " equation" +
                           (still.empty() ? "." : ", " + still + "."),
                  .caption = "The curve is an estimate. A box spans a window and the proved bounds "
@@ -82,8 +80,7 @@ SIVID_DECL figure motion_figure(compared_scenario const& s) {
         both = both || !c.after.empty();
         time = hull(time, detail::time_range(detail::plain_series(c)));
     }
-    figure f{.panels = {},
-             .title = "Scenario " + s.name + (both ? ", before and after." : "."),
+    figure f{.title = "Scenario " + s.name + (both ? ", before and after." : "."),
              .caption =
                  s.holdout
                      ? "Held-out data: neither the effect nor the parameters were chosen by them."

@@ -67,7 +67,7 @@ SIVID_DECL std::vector<card> diagnosis_cards(diagnosis_view const& v) {
 }
 
 SIVID_DECL table summary_table(diagnosis_view const& v) {
-    table t{.columns = {{"in short", column_kind::symbol}, {"answer"}}, .rows = {}};
+    table t{.columns = {{"in short", column_kind::symbol}, {"answer"}}};
     auto const add = [&](char const* question, std::string const& text) {
         if (!text.empty()) {
             t.rows.push_back({question, capitalised(text) + (text.back() == '.' ? "" : ".")});
@@ -116,8 +116,7 @@ SIVID_DECL table places_table(diagnosis_view const& v, std::size_t most) {
                         {"missing"},
                         {"its shape (estimate)"},
                         {"known by"},
-                        {"explains as much", column_kind::note}},
-            .rows = {}};
+                        {"explains as much", column_kind::note}}};
     for (suspected_place const& p : v.where) {
         if (t.rows.size() == most) break;
         std::string const span = p.where.from < p.where.to
@@ -139,7 +138,6 @@ SIVID_DECL table gap_shares_table(diagnosis_view const& v) {
     table t{.columns = {{"scenario or channel", column_kind::symbol},
                         {"proved", column_kind::number},
                         {"best fit (estimate)", column_kind::number}},
-            .rows = {},
             .caption = "The factor by which the bounds of this scenario or channel must grow."};
     auto const add = [&](std::string const& kind, named_estimate const& s) {
         t.rows.push_back({kind + s.name, says_something(s.hull) ? inflation_text(s.hull) : "",
@@ -163,8 +161,7 @@ SIVID_DECL table causes_table(diagnosis_view const& v, std::size_t most) {
                         {"value", column_kind::number},
                         {"proved range", column_kind::number},
                         {"prior", column_kind::number},
-                        {"unit"}},
-            .rows = {}};
+                        {"unit"}}};
     auto const answer = answer_of(v);
     for (cause const* c : foremost(v, most)) {
         bool first = true;
@@ -196,8 +193,7 @@ SIVID_DECL table constants_table(diagnosis_view const& v) {
                         {"proved range", column_kind::number},
                         {"prior", column_kind::number},
                         {"unit"},
-                        {"to be noted", column_kind::note}},
-            .rows = {}};
+                        {"to be noted", column_kind::note}}};
     for (named_estimate const& e : v.constants) {
         auto const end =
             std::find_if(v.at_ends.begin(), v.at_ends.end(), [&](constant_at_end const& a) {
@@ -236,8 +232,7 @@ SIVID_DECL table holdout_table(diagnosis_view const& v, holdout_figures const& h
     table t{.columns = {{"measure", column_kind::symbol},
                         {"model as it is", column_kind::number},
                         {"with the effect", column_kind::number},
-                        {"known by"}},
-            .rows = {}};
+                        {"known by"}}};
     auto const inflation = [](range const& r) {
         return says_something(r) ? inflation_text(r) : std::string{"not bounded"};
     };
@@ -285,7 +280,6 @@ SIVID_DECL table holdout_candidates_table(diagnosis_view const& v, std::size_t m
                         {"bounds must grow by (proved)", column_kind::number},
                         {"samples in its tube (estimate)", column_kind::number},
                         {"width of the tube, in bounds (estimate)", column_kind::number}},
-            .rows = {},
             .caption = "A wide tube covers much and says little."};
     for (cause const* c : foremost(v, v.causes.size())) {
         if (!c->holdout || t.rows.size() == most) continue;

@@ -7,9 +7,7 @@
 namespace sivid::report::detail {
 
 SIVID_DECL void add_parameters(page& out, identification_view const& v) {
-    if (v.parameters.empty()) {
-        return;
-    }
+    if (v.parameters.empty()) return;
     out.section("Parameters");
     std::vector<interval_row> rows;
     table t{.columns = {{"parameter", column_kind::symbol},
@@ -19,16 +17,13 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
                         {"width / prior", column_kind::number},
                         {"witness, about", column_kind::number},
                         {"meaning", column_kind::note}},
-            .rows = {},
             .caption = "The hull contains every value that can explain the data; its ends are "
                        "rounded outward."};
     for (parameter_view const& p : v.parameters) {
         interval_row row{p.name, p.unit, p.prior, p.hull};
         if (v.witness) {
             for (named_estimate const& w : v.witness->parameters) {
-                if (w.name == p.name) {
-                    row.witness = w.value;
-                }
+                if (w.name == p.name) row.witness = w.value;
             }
         }
         double const share = share_of_prior(p);
@@ -44,9 +39,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
     }
     std::vector<legend_entry> legend{{symbol::prior, "prior"},
                                      {symbol::hull, "hull: all that can explain the data"}};
-    if (v.witness) {
-        legend.push_back({symbol::witness, "witness"});
-    }
+    if (v.witness) legend.push_back({symbol::witness, "witness"});
     out.add(figure{.panels = {draw_interval_chart(rows, {.width = 1000, .title = ""})},
                    .legend = legend,
                    .title = "What the data leave of the prior.",
@@ -59,8 +52,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
                             {"unit"},
                             {"over the prior", column_kind::number},
                             {"hull (proved)", column_kind::number},
-                            {"remark", column_kind::note}},
-                .rows = {}};
+                            {"remark", column_kind::note}}};
         for (combination_view const& k : v.combinations) {
             c.rows.push_back({formula_text(k.formula), unit_text(k.unit),
                               is_empty(k.prior) ? "" : outward_text(k.prior), outward_text(k.hull),
@@ -73,8 +65,7 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
 SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, std::string title,
                                 std::string caption, paving_words const& words) {
     // The zoom stands beside or below its whole view in the same order, so panels go in pairs.
-    figure f{.panels = {},
-             .legend = paving_plot_legend(pavings, words),
+    figure f{.legend = paving_plot_legend(pavings, words),
              .title = std::move(title),
              .caption = std::move(caption),
              .layout = panel_layout::pair,
@@ -97,9 +88,7 @@ SIVID_DECL figure paving_figure(std::vector<paving_projection> const& pavings, s
 }
 
 SIVID_DECL void add_pavings(page& out, identification_view const& v) {
-    if (v.pavings.empty()) {
-        return;
-    }
+    if (v.pavings.empty()) return;
     out.section("The set of parameters that explain the data");
     bool const anything =
         std::any_of(v.pavings.begin(), v.pavings.end(), [](paving_projection const& p) {

@@ -70,9 +70,7 @@ SIVID_DECL std::string shorten(std::string_view text, std::size_t longest) {
     std::size_t count = 0;
     std::size_t end_before_ellipsis = 0;
     while (end < text.size()) {
-        if (count + 1 == longest) {
-            end_before_ellipsis = end;
-        }
+        if (count + 1 == longest) end_before_ellipsis = end;
         if (count == longest) {
             return std::string{text.substr(0, end_before_ellipsis)} + "\xE2\x80\xA6";
         }

@@ -25,9 +25,7 @@ SIVID_DECL std::string superscript(int value) {
         "\xE2\x81\xB0", "\xC2\xB9",     "\xC2\xB2",     "\xC2\xB3",     "\xE2\x81\xB4",
         "\xE2\x81\xB5", "\xE2\x81\xB6", "\xE2\x81\xB7", "\xE2\x81\xB8", "\xE2\x81\xB9"};
     std::string out = value < 0 ? "\xE2\x81\xBB" : "";
-    for (char const c : std::to_string(std::abs(value))) {
-        out += glyph[c - '0'];
-    }
+    for (char const c : std::to_string(std::abs(value))) out += glyph[c - '0'];
     return out;
 }
 
@@ -45,11 +43,8 @@ SIVID_DECL scaled_decimal round_decimal(double x, int quantum, rounding way) {
             .ptr;
     std::string_view const all{text, static_cast<std::size_t>(end - text)};
     std::string exact;
-    for (char const c : all.substr(0, all.find('e'))) {
-        if (c != '.') {
-            exact += c;
-        }
-    }
+    for (char const c : all.substr(0, all.find('e')))
+        if (c != '.') exact += c;
     std::string_view const tail = all.substr(all.find('e') + 1);
     int lead = 0;
     std::from_chars(tail.data() + 1, tail.data() + tail.size(), lead);
@@ -70,9 +65,7 @@ SIVID_DECL scaled_decimal round_decimal(double x, int quantum, rounding way) {
                           : lost && ((way == rounding::up) != out.negative);
     if (away) {
         auto place = out.digits.size();
-        while (place > 0 && out.digits[place - 1] == '9') {
-            out.digits[--place] = '0';
-        }
+        while (place > 0 && out.digits[place - 1] == '9') out.digits[--place] = '0';
         if (place == 0) {
             out.digits.insert(out.digits.begin(), '1');
         } else {
@@ -84,14 +77,10 @@ SIVID_DECL scaled_decimal round_decimal(double x, int quantum, rounding way) {
 
 SIVID_DECL std::string plain_text(scaled_decimal const& d) {
     std::string digits = d.digits;
-    if (d.exponent > 0 && digits != "0") {
-        digits.append(static_cast<std::size_t>(d.exponent), '0');
-    }
+    if (d.exponent > 0 && digits != "0") digits.append(static_cast<std::size_t>(d.exponent), '0');
     if (d.exponent < 0) {
         auto const decimals = static_cast<std::size_t>(-d.exponent);
-        if (digits.size() <= decimals) {
-            digits.insert(0, decimals + 1 - digits.size(), '0');
-        }
+        if (digits.size() <= decimals) digits.insert(0, decimals + 1 - digits.size(), '0');
         digits.insert(digits.size() - decimals, 1, '.');
     }
     bool const zero = digits.find_first_not_of("0.") == std::string::npos;

@@ -24,7 +24,6 @@ namespace sivid {
 /// @tparam I  in which products are evaluated
 template <class I>
 class drawing_check {
-    using traits = interval_traits<I>;
     using outcome = check_finding::outcome;
 
 public:
@@ -91,16 +90,12 @@ private:
     }
     /// The products over a box, outward.
     [[nodiscard]] std::optional<box> image_of(box const& x) const {
-        basic_box<I> p(x.size());
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            p[j] = traits::bounds(x[j].lower(), x[j].upper());
-        }
+        auto const p = io_detail::in<I>(x);
         box result(rebuilt_->sides.size());
         for (std::size_t k = 0; k < result.size(); ++k) {
             auto const value = rebuilt_->sides[k].over(p);
             if (!value) return std::nullopt;
-            result[k] =
-                interval_traits<interval>::bounds(traits::lower(*value), traits::upper(*value));
+            result[k] = io_detail::in_doubles(*value);
         }
         return result;
     }

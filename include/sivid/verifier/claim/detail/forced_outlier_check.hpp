@@ -4,6 +4,7 @@
 
 #include <sivid/paving/run/plain_run.hpp>
 #include <sivid/verifier/claim/detail/identification_consistency.hpp>
+#include <sivid/verifier/proof/detail/certificate.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -53,19 +54,6 @@ bool all_violated(plain_outputs<I> const& known, record const& samples,
     });
 }
 
-/// The side that is widest against the prior's, if it can be cut.
-inline std::optional<std::size_t> widest_side(box const& x, box const& prior) {
-    std::optional<std::size_t> best;
-    double most = 1e-12;
-    for (std::size_t j = 0; j < x.size(); ++j) {
-        double const whole = width(prior[j]);
-        if (is_one_number(prior[j]) || !(width(x[j]) / whole > most)) continue;
-        most = width(x[j]) / whole;
-        best = j;
-    }
-    return best;
-}
-
 /// Whether every parameter of every row violates these measurements of an experiment: proved over
 /// parts of the rows' hull, as long as `keep_going` says.
 template <class I, class KeepGoing>
@@ -73,9 +61,7 @@ bool violated_everywhere(identification_problem const& problem, stored_identific
                          experiment const& own, plain_run<I>& run,
                          std::vector<std::size_t> const& which, KeepGoing const& keep_going) {
     if (which.empty() || stored.rows.empty()) return true;
-    auto all = stored.rows[0].set;
-    for (auto const& row : stored.rows) all = hull(all, row.set);
-    std::vector<box> waiting{intersect(all, problem.prior)};
+    std::vector<box> waiting{intersect(hull_of(stored.rows), problem.prior)};
     while (!waiting.empty()) {
         auto const region = std::move(waiting.back());
         waiting.pop_back();
@@ -83,7 +69,7 @@ bool violated_everywhere(identification_problem const& problem, stored_identific
             std::any_of(stored.rows.begin(), stored.rows.end(),
                         [&](auto const& row) { return !is_empty(intersect(row.set, region)); });
         if (!needed || all_violated(run(own.initial, region), run.samples(), which)) continue;
-        auto const side = widest_side(region, problem.prior);
+        auto const side = widest_side(region, problem.prior, 1e-12);
         if (!side || !keep_going()) return false;
         auto [low, high] = bisect(region, *side, mid(region[*side]));
         waiting.push_back(std::move(low));

@@ -25,13 +25,32 @@ namespace io_detail {
 inline double apart(interval const& a, interval const& b) {
     return std::max({0.0, a.lower() - b.upper(), b.lower() - a.upper()});
 }
-inline bool any_inside(std::vector<paved_box> const& rows) {
+inline bool any_is(std::vector<paved_box> const& rows, box_verdict what) {
     return std::any_of(rows.begin(), rows.end(),
-                       [](auto const& row) { return row.verdict == box_verdict::inside; });
+                       [what](auto const& row) { return row.verdict == what; });
+}
+inline bool any_inside(std::vector<paved_box> const& rows) {
+    return any_is(rows, box_verdict::inside);
+}
+/// The volumes of the inside boxes and of all, summed.
+template <class Volume>
+std::pair<interval, interval> volumes_of(std::vector<paved_box> const& rows, Volume const& volume) {
+    interval inner{0.0}, outer{0.0};
+    for (auto const& row : rows) {
+        auto const v = volume(row.set);
+        outer = interval_traits<interval>::add(outer, v);
+        if (row.verdict == box_verdict::inside) inner = interval_traits<interval>::add(inner, v);
+    }
+    return {inner, outer};
 }
 inline bool any_leaves(std::vector<paved_box> const& rows, box const& prior) {
     return std::any_of(rows.begin(), rows.end(),
                        [&prior](auto const& row) { return leaves(row.set, prior); });
+}
+inline box hull_of(std::vector<paved_box> const& rows) {
+    auto all = rows[0].set;
+    for (auto const& row : rows) all = hull(all, row.set);
+    return all;
 }
 /// Whether there are other numbers of rows than stated.
 inline std::string miscounted(stored_identification const& stored) {
@@ -96,13 +115,8 @@ inline check_finding late(std::string what) {
 /// The stated numbers are those of the rows, and so are the volumes, as far as decimals tell.
 [[nodiscard]] inline check_finding check_volumes(identification_problem const& problem,
                                                  stored_identification const& stored) {
-    using traits = interval_traits<interval>;
-    interval inner{0.0}, outer{0.0};
-    for (auto const& row : stored.rows) {
-        auto const v = io_detail::share_of(row.set, problem.prior);
-        outer = traits::add(outer, v);
-        if (row.verdict == box_verdict::inside) inner = traits::add(inner, v);
-    }
+    auto const [inner, outer] = io_detail::volumes_of(
+        stored.rows, [&](box const& x) { return io_detail::share_of(x, problem.prior); });
     auto fault = io_detail::miscounted(stored);
     if (is_empty(intersect(inner, stored.inner))) {
         fault = "the inner volume is not that of the inside boxes";
@@ -209,17 +223,11 @@ inline check_finding late(std::string what) {
 /// @param prior  of the paving that was searched
 [[nodiscard]] inline check_finding check_stop(stored_identification const& stored,
                                               box const& prior) {
-    using traits = interval_traits<interval>;
     auto const& rows = stored.products ? stored.products->rows : stored.rows;
-    bool pending = false, undecided = false;
-    interval inner{0.0}, outer{0.0};
-    for (auto const& row : rows) {
-        pending = pending || row.verdict == box_verdict::pending;
-        undecided = undecided || row.verdict == box_verdict::undecided;
-        auto const v = relative_volume(intersect(row.set, prior), prior);
-        outer = traits::add(outer, v);
-        if (row.verdict == box_verdict::inside) inner = traits::add(inner, v);
-    }
+    bool const pending = io_detail::any_is(rows, box_verdict::pending);
+    bool const undecided = io_detail::any_is(rows, box_verdict::undecided);
+    auto const [inner, outer] = io_detail::volumes_of(
+        rows, [&](box const& x) { return relative_volume(intersect(x, prior), prior); });
     auto const r = stored.reason;
     bool holds = (r == stop_reason::decided) == !(pending || undecided);
     // Boxes wait unless the search came to its end.
@@ -275,11 +283,7 @@ template <class I>
         }
         auto low = HUGE_VAL, high = -HUGE_VAL;
         for (auto const& row : stored.rows) {
-            basic_box<I> p(row.set.size());
-            for (std::size_t j = 0; j < p.size(); ++j) {
-                p[j] = traits::bounds(row.set[j].lower(), row.set[j].upper());
-            }
-            auto const value = formula->over(p);
+            auto const value = formula->over(io_detail::in<I>(row.set));
             low = std::min(low, value ? traits::lower(*value) : -HUGE_VAL);
             high = std::max(high, value ? traits::upper(*value) : HUGE_VAL);
         }

@@ -18,16 +18,6 @@
 
 namespace sivid {
 
-namespace io_detail {
-
-inline box hull_of(std::vector<paved_box> const& rows) {
-    auto all = rows[0].set;
-    for (auto const& row : rows) all = hull(all, row.set);
-    return all;
-}
-
-} // namespace io_detail
-
 /// The sides are products through which alone the equations see the parameters, and there are as
 /// many rows as stated, all within the products' ranges.
 [[nodiscard]] inline check_finding
@@ -66,10 +56,7 @@ template <class I>
     int roundings = 8;
     if (fault.empty() && !stored.rows.empty()) {
         auto const products = io_detail::hull_of(rows), boxes = io_detail::hull_of(stored.rows);
-        basic_box<I> p(n);
-        for (std::size_t j = 0; j < n; ++j) {
-            p[j] = traits::bounds(problem.prior[j].lower(), problem.prior[j].upper());
-        }
+        auto p = io_detail::in<I>(problem.prior);
         for (std::size_t k = 0; k < rebuilt.sides.size(); ++k) {
             auto const& e = rebuilt.sides[k].exponents();
             roundings += 4 * rebuilt.sides[k].degree();
@@ -77,15 +64,13 @@ template <class I>
                 if (e[j] != 1) continue;
                 auto const others = rebuilt.sides[k].without(j).over(p);
                 typename traits::mask undefined{};
-                auto const side = traits::bounds(products[k].lower(), products[k].upper());
                 if (!others) continue;
-                auto const allowed = traits::div(side, *others, undefined);
+                auto const allowed = traits::div(io_detail::in<I>(products[k]), *others, undefined);
                 if (!undefined) p[j] = traits::intersect(p[j], allowed);
             }
         }
         for (std::size_t j = 0; j < n; ++j) {
-            range[j] = intersect(boxes[j], interval_traits<interval>::bounds(traits::lower(p[j]),
-                                                                             traits::upper(p[j])));
+            range[j] = intersect(boxes[j], io_detail::in_doubles(p[j]));
         }
     }
     for (std::size_t j = 0; j < n && fault.empty(); ++j) {
@@ -155,7 +140,6 @@ check_volumes_of_products(identification_problem const& problem,
                           stored_identification const& stored, stored_products const& rebuilt,
                           std::function<bool()> const& keep_going = {}) {
     using outcome = check_finding::outcome;
-    using traits = interval_traits<I>;
     std::string const what = "volumes";
     std::vector<box> inside, left;
     for (auto const& row : stored.products->rows) {
@@ -176,8 +160,7 @@ check_volumes_of_products(identification_problem const& problem,
         std::string const which = inner ? "inner" : "outer";
         auto const share = anew(boxes, cells, keep_going);
         auto const volume =
-            intersect(interval_traits<interval>::bounds(traits::lower(share), traits::upper(share)),
-                      interval_traits<interval>::bounds(0.0, 1.0));
+            intersect(io_detail::in_doubles(share), interval_traits<interval>::bounds(0.0, 1.0));
         // Of each end: what is next to nothing of all that is left may be all that is inside.
         double const below = 1e-9 * volume.lower(), above = 1e-9 * volume.upper();
         if (is_empty(stated) || stated.lower() > volume.upper() + above ||

@@ -56,7 +56,6 @@ private:
         double gap = 0;
     };
 
-    [[nodiscard]] static I hold(interval const& x) { return traits::bounds(x.lower(), x.upper()); }
     [[nodiscard]] static I length(interval const& x) {
         return traits::sub(traits::point(x.upper()), traits::point(x.lower()));
     }
@@ -109,17 +108,18 @@ private:
         for (std::size_t k = 0; k < r.size(); ++k) {
             auto const& e = products_->sides[k].exponents();
             auto const pivot = products_->pivots[k];
-            auto const own = hold(prior_[pivot]);
+            auto const own = io_detail::in<I>(prior_[pivot]);
             I factors = traits::point(1.0);
             for (std::size_t j = 0; j < set.size(); ++j) {
                 if (j == pivot || e[j] == 0) continue;
                 typename traits::mask undefined{};
-                I const power = traits::pown(hold(set[j]), std::abs(e[j]), undefined);
+                I const power = traits::pown(io_detail::in<I>(set[j]), std::abs(e[j]), undefined);
                 factors = e[j] > 0 ? traits::mul(factors, power) : divided(factors, power);
             }
             auto const image = traits::mul(own, factors);
-            if (traits::subset(image, hold(r[k]))) continue; // all of the pivot's prior
-            if (traits::disjoint(image, hold(r[k]))) return {set, traits::point(0.0), 0};
+            if (traits::subset(image, io_detail::in<I>(r[k]))) continue; // all of the pivot's prior
+            if (traits::disjoint(image, io_detail::in<I>(r[k])))
+                return {set, traits::point(0.0), 0};
             if (!(traits::mig(factors) > 0) || !(traits::mag(factors) < HUGE_VAL) ||
                 !(width(prior_[pivot]) > 0)) {
                 exact = false;
@@ -192,7 +192,7 @@ private:
     /// \f$ |o|^n \f$
     [[nodiscard]] static I power_of(interval const& o, int n) {
         typename traits::mask undefined{};
-        I const size = traits::pown(traits::abs(hold(o)), std::abs(n), undefined);
+        I const size = traits::pown(traits::abs(io_detail::in<I>(o)), std::abs(n), undefined);
         return n < 0 ? divided(traits::point(1.0), size) : size;
     }
 

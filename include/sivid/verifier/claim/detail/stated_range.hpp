@@ -13,6 +13,24 @@
 
 namespace sivid::io_detail {
 
+/// A side and a box in the arithmetic of I.
+template <class I>
+[[nodiscard]] I in(interval const& side) {
+    return interval_traits<I>::bounds(side.lower(), side.upper());
+}
+template <class I>
+[[nodiscard]] basic_box<I> in(box const& x) {
+    basic_box<I> result(x.size());
+    for (std::size_t j = 0; j < x.size(); ++j) result[j] = in<I>(x[j]);
+    return result;
+}
+/// The doubles around it.
+template <class I>
+[[nodiscard]] interval in_doubles(I const& x) {
+    using traits = interval_traits<I>;
+    return interval_traits<interval>::bounds(traits::lower(x), traits::upper(x));
+}
+
 /// What so many roundings may cost an end: floats of its own, whatever the other end is.
 inline double cost_of_rounding(double end, int roundings) {
     return roundings * (0x1p-52 * std::abs(end) + std::numeric_limits<double>::denorm_min());

@@ -6,6 +6,7 @@
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/structure/homogeneity.hpp>
+#include <sivid/verifier/claim/detail/stated_range.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -69,10 +70,7 @@ template <class I>
     choice.unknown.clear();
     std::vector<bool> is_pivot(names.size(), false);
     result.problem.prior = box(result.sides.size());
-    basic_box<I> prior(names.size());
-    for (std::size_t j = 0; j < names.size(); ++j) {
-        prior[j] = traits::bounds(original.prior[j].lower(), original.prior[j].upper());
-    }
+    auto const prior = io_detail::in<I>(original.prior);
     for (std::size_t k = 0; k < result.sides.size(); ++k) {
         auto const pivot = io_detail::pivot_of(result.sides, k);
         auto const range = result.sides[k].over(prior);
@@ -83,8 +81,7 @@ template <class I>
         result.pivots.push_back(*pivot);
         is_pivot[*pivot] = true;
         choice.unknown.push_back(names[*pivot]);
-        result.problem.prior[k] =
-            interval_traits<interval>::bounds(traits::lower(*range), traits::upper(*range));
+        result.problem.prior[k] = io_detail::in_doubles(*range);
     }
     std::vector<bound_model> models;
     for (auto const& e : original.experiments) {

@@ -26,6 +26,65 @@ struct box_claim {
     std::vector<double> counterexample = {}; ///< a point that proves the contrary, when refuted
 };
 
+namespace io_detail {
+
+/// A part of a claim's box.
+struct claim_piece {
+    box set;
+    std::size_t claim;
+    std::size_t cuts = 0; ///< of the claim's box that led to it
+};
+
+[[nodiscard]] inline box hull_of(std::vector<claim_piece> const& pieces) {
+    auto region = pieces[0].set;
+    for (auto const& p : pieces) region = hull(region, p.set);
+    return region;
+}
+
+/// What is left to prove of claims.
+struct claim_book {
+    std::vector<box_claim>* claims = nullptr;
+    std::vector<std::size_t> left; ///< pieces to prove, by claim
+    std::vector<bool> gave_up;
+
+    /// @param wanted  of claims that are open. @returns their boxes
+    template <class Wanted>
+    std::vector<claim_piece> open(std::vector<box_claim>& all, Wanted const& wanted) {
+        claims = &all;
+        left.assign(all.size(), 0);
+        gave_up.assign(all.size(), false);
+        std::vector<claim_piece> pieces;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            if (all[k].found != box_claim::status::open || !wanted(all[k])) continue;
+            left[k] = 1;
+            pieces.push_back({all[k].set, k});
+        }
+        return pieces;
+    }
+    [[nodiscard]] box_claim& of(claim_piece const& p) const { return (*claims)[p.claim]; }
+    void prove(claim_piece const& p) {
+        if (--left[p.claim] == 0 && !gave_up[p.claim]) of(p).found = box_claim::status::proved;
+    }
+    void give_up(std::vector<claim_piece> const& pieces) {
+        for (auto const& p : pieces) gave_up[p.claim] = true;
+    }
+};
+
+/// The side that is widest against the prior's, of those that are wider than `least` of it.
+[[nodiscard]] inline std::optional<std::size_t> widest_side(box const& x, box const& prior,
+                                                            double least = -1) {
+    std::optional<std::size_t> best;
+    for (std::size_t j = 0; j < x.size(); ++j) {
+        double const whole = width(prior[j]);
+        if (is_one_number(prior[j]) || !(width(x[j]) / whole > least)) continue;
+        least = width(x[j]) / whole;
+        best = j;
+    }
+    return best;
+}
+
+} // namespace io_detail
+
 /// Proves or refutes claims about boxes by plain runs, in subdivisions of its own.
 ///   Claims are run together while they lie close; what the run leaves open is split: the group
 ///   about its median, a single box where its outputs spread most.
@@ -47,41 +106,24 @@ public:
 
     /// Tries the claims that are open.
     void operator()(std::vector<box_claim>& claims) {
-        claims_ = &claims;
         limit_ = work_limit(options_.seconds, options_.keep_going);
-        left_.assign(claims.size(), 0);
         spent_.assign(claims.size(), 0);
-        gave_up_.assign(claims.size(), false);
-        group all;
-        for (std::size_t k = 0; k < claims.size(); ++k) {
-            if (claims[k].found != box_claim::status::open) continue;
-            left_[k] = 1;
-            all.push_back({claims[k].set, k});
-        }
-        settle(std::move(all));
+        settle(book_.open(claims, [](box_claim const&) { return true; }));
     }
 
 private:
     using status = box_claim::status;
-    struct piece {
-        box set;
-        std::size_t claim;
-    };
+    using piece = io_detail::claim_piece;
     using group = std::vector<piece>;
     using knowledge = typename proved_campaign<I>::knowledge;
 
     [[nodiscard]] bool is_inside(piece const& p) const {
-        return (*claims_)[p.claim].what == box_claim::kind::inside;
+        return book_.of(p).what == box_claim::kind::inside;
     }
     [[nodiscard]] bool over() const { return !limit_(); }
-    void prove(piece const& p) {
-        if (--left_[p.claim] == 0 && !gave_up_[p.claim]) {
-            (*claims_)[p.claim].found = status::proved;
-        }
-    }
-    void refute(std::size_t claim, std::vector<double> at) {
-        (*claims_)[claim].found = status::refuted;
-        (*claims_)[claim].counterexample = std::move(at);
+    void refute(piece const& p, std::vector<double> at) {
+        book_.of(p).found = status::refuted;
+        book_.of(p).counterexample = std::move(at);
     }
 
     /// Looks for a point inside the piece that contradicts its claim.
@@ -96,7 +138,7 @@ private:
                 if (contains(p.set[j], x)) at[j] = x;
             }
             if (campaign_.judge(known, point_box(at)) != wrong) continue;
-            refute(p.claim, at);
+            refute(p, at);
             return;
         }
     }
@@ -122,15 +164,11 @@ private:
 
     void settle(group pieces) {
         std::erase_if(pieces, [this](piece const& p) {
-            return (*claims_)[p.claim].found == status::refuted || gave_up_[p.claim];
+            return book_.of(p).found == status::refuted || book_.gave_up[p.claim];
         });
         if (pieces.empty()) return;
-        if (over()) {
-            for (auto const& p : pieces) gave_up_[p.claim] = true;
-            return;
-        }
-        auto region = pieces[0].set;
-        for (auto const& p : pieces) region = hull(region, p.set);
+        if (over()) return book_.give_up(pieces);
+        auto const region = io_detail::hull_of(pieces);
         bool wide = false;
         for (std::size_t j = 0; j < region.size(); ++j) {
             wide = wide || (!is_one_number(prior_[j]) &&
@@ -145,9 +183,9 @@ private:
             auto const says = campaign_.judge(known, p.set);
             auto const right = is_inside(p) ? run_finding::explained : run_finding::refuted;
             if (says == right) {
-                prove(p);
+                book_.prove(p);
             } else if (says != run_finding::open) {
-                refute(p.claim, mid(p.set));
+                refute(p, mid(p.set));
             } else {
                 rest.push_back(std::move(p));
             }
@@ -158,12 +196,9 @@ private:
         }
         for (auto const& p : rest) probe(p, known);
         if (rest.size() == 1 && ++spent_[rest[0].claim] >= options_.runs_per_claim) {
-            gave_up_[rest[0].claim] = true;
-            return;
+            return book_.give_up(rest);
         }
-        if (!rest.empty() && !split(rest, region, &known)) {
-            for (auto const& p : rest) gave_up_[p.claim] = true;
-        }
+        if (!rest.empty() && !split(rest, region, &known)) book_.give_up(rest);
     }
 
     /// A group by the median of its centres, one box by a cut. @returns false if neither is
@@ -175,20 +210,12 @@ private:
             auto const& x = pieces[0].set;
             auto [low, high] = bisect(x, *side, mid(x[*side]));
             auto const claim = pieces[0].claim;
-            ++left_[claim];
+            ++book_.left[claim];
             settle({{std::move(low), claim}});
             settle({{std::move(high), claim}});
             return true;
         }
-        std::size_t widest = 0;
-        double most = -1;
-        for (std::size_t j = 0; j < region.size(); ++j) {
-            double const whole = width(prior_[j]);
-            if (!is_one_number(prior_[j]) && width(region[j]) / whole > most) {
-                most = width(region[j]) / whole;
-                widest = j;
-            }
-        }
+        auto const widest = io_detail::widest_side(region, prior_).value_or(0);
         auto const half = pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2);
         std::nth_element(pieces.begin(), half, pieces.end(), [&](piece const& a, piece const& b) {
             return mid(a.set[widest]) < mid(b.set[widest]);
@@ -203,9 +230,8 @@ private:
     box prior_;
     proved_campaign<I> campaign_;
     certificate_options options_;
-    std::vector<box_claim>* claims_ = nullptr;
-    std::vector<std::size_t> left_, spent_; ///< pieces to prove, single runs spent, by claim
-    std::vector<bool> gave_up_;
+    io_detail::claim_book book_;
+    std::vector<std::size_t> spent_; ///< single runs, by claim
     work_limit limit_{0};
 };
 

@@ -83,25 +83,12 @@ public:
 
     /// Tries the claims that are open and say `outside`.
     void operator()(std::vector<box_claim>& claims) {
-        claims_ = &claims;
-        left_.assign(claims.size(), 0);
-        gave_up_.assign(claims.size(), false);
-        group all;
-        for (std::size_t k = 0; k < claims.size(); ++k) {
-            if (claims[k].what != box_claim::kind::outside) continue;
-            if (claims[k].found != box_claim::status::open) continue;
-            left_[k] = 1;
-            all.push_back({claims[k].set, k, 0});
-        }
-        settle(std::move(all));
+        settle(book_.open(claims,
+                          [](box_claim const& c) { return c.what == box_claim::kind::outside; }));
     }
 
 private:
-    struct piece {
-        box set;
-        std::size_t claim;
-        std::size_t cuts; ///< of the claim's box that led to it
-    };
+    using piece = io_detail::claim_piece;
     using group = std::vector<piece>;
 
     /// More groups of measurements than this are not tried (`lp_contractor` neither).
@@ -119,33 +106,20 @@ private:
         ++contradictions_;
         return nullptr;
     }
-    [[nodiscard]] static box hull_of(group const& pieces) {
-        auto region = pieces[0].set;
-        for (auto const& p : pieces) region = hull(region, p.set);
-        return region;
-    }
-    void give_up(group const& pieces) {
-        for (auto const& p : pieces) gave_up_[p.claim] = true;
-    }
-    void prove(piece const& p) {
-        if (--left_[p.claim] == 0 && !gave_up_[p.claim]) {
-            (*claims_)[p.claim].found = box_claim::status::proved;
-        }
-    }
 
     /// One region: the experiments in turn, each over what the ones before leave open.
     void settle(group pieces) {
-        std::erase_if(pieces, [this](piece const& p) { return gave_up_[p.claim]; });
+        std::erase_if(pieces, [this](piece const& p) { return book_.gave_up[p.claim]; });
         if (pieces.empty()) return;
-        if (over()) return give_up(pieces);
-        auto const region = hull_of(pieces);
+        if (over()) return book_.give_up(pieces);
+        auto const region = io_detail::hull_of(pieces);
         response_list known;
         for (std::size_t e = 0; e < runs_.size() && !pieces.empty(); ++e) {
-            known.push_back(run(e, hull_of(pieces)));
+            known.push_back(run(e, io_detail::hull_of(pieces)));
             group open;
             for (auto& p : pieces) {
                 if (excludes(known, p.set)) {
-                    prove(p);
+                    book_.prove(p);
                 } else {
                     open.push_back(std::move(p));
                 }
@@ -154,7 +128,7 @@ private:
         }
         refine(pieces, known);
         if (pieces.empty()) return;
-        auto const rest = hull_of(pieces);
+        auto const rest = io_detail::hull_of(pieces);
         if (relative_volume(rest, region).upper() <= 0.5) return settle(std::move(pieces));
         split(std::move(pieces), rest, known);
     }
@@ -177,10 +151,10 @@ private:
                 }
             }
             if (proved.empty()) return; // nothing was gained: the pieces stay whole
-            for (auto const& p : pieces) --left_[p.claim];
-            for (auto const& p : halves) ++left_[p.claim];
-            for (auto const& p : proved) ++left_[p.claim];
-            for (auto const& p : proved) prove(p);
+            for (auto const& p : pieces) --book_.left[p.claim];
+            for (auto const& p : halves) ++book_.left[p.claim];
+            for (auto const& p : proved) ++book_.left[p.claim];
+            for (auto const& p : proved) book_.prove(p);
             pieces = std::move(halves);
         }
     }
@@ -188,29 +162,21 @@ private:
     void split(group pieces, box const& region, response_list const& known) {
         if (pieces.size() == 1) {
             auto const side = side_to_cut(pieces[0].set, known);
-            if (!side || ++pieces[0].cuts > most_cuts) return give_up(pieces);
+            if (!side || ++pieces[0].cuts > most_cuts) return book_.give_up(pieces);
             auto const& p = pieces[0];
             auto [low, high] = bisect(p.set, *side, mid(p.set[*side]));
-            ++left_[p.claim];
+            ++book_.left[p.claim];
             group halves{{std::move(low), p.claim, p.cuts}, {std::move(high), p.claim, p.cuts}};
             // What is known of the whole may do for a half.
             std::erase_if(halves, [&](piece const& half) {
                 bool const done = excludes(known, half.set);
-                if (done) prove(half);
+                if (done) book_.prove(half);
                 return done;
             });
             for (auto& half : halves) settle({std::move(half)});
             return;
         }
-        std::size_t widest = 0;
-        double most = -1;
-        for (std::size_t j = 0; j < region.size(); ++j) {
-            double const whole = width(problem_->prior[j]);
-            if (!is_one_number(problem_->prior[j]) && width(region[j]) / whole > most) {
-                most = width(region[j]) / whole;
-                widest = j;
-            }
-        }
+        auto const widest = io_detail::widest_side(region, problem_->prior).value_or(0);
         // Boxes that reach far across the middle are cut there: with them no region shrinks.
         double const middle = mid(region[widest]);
         group low, high;
@@ -220,7 +186,7 @@ private:
                                 width(side) > 0.5 * width(region[widest]) && p.cuts < most_cuts;
             if (across) {
                 auto [a, b] = bisect(p.set, widest, middle);
-                ++left_[p.claim];
+                ++book_.left[p.claim];
                 low.push_back({std::move(a), p.claim, p.cuts + 1});
                 high.push_back({std::move(b), p.claim, p.cuts + 1});
             } else {
@@ -340,9 +306,7 @@ private:
     std::vector<std::unique_ptr<flow>> flows_;
     std::vector<record> samples_;
     std::vector<std::unique_ptr<experiment_run>> runs_;
-    std::vector<box_claim>* claims_ = nullptr;
-    std::vector<std::size_t> left_; ///< pieces to prove, by claim
-    std::vector<bool> gave_up_;
+    io_detail::claim_book book_;
     std::size_t count_ = 0, contradictions_ = 0, steps_ = 0, by_weights_ = 0;
     work_limit limit_{options_.seconds, options_.keep_going};
 };
