@@ -45,8 +45,6 @@ struct static_inversion_options {
 ///   one at a time (`static_survey`). Where at most 64 are left, boxes wait in blocks of flat
 ///   arrays and are tested eight at a time by the enclosures of their open measurements
 ///   (`static_judge`), then kept, dropped, or cut where their open outputs spread most.
-/// @guarantee  boxes `inside` are feasible throughout; every feasible parameter of the prior lies
-/// in a box
 /// @cost  about 10 to 100 ns a box for small models; time and memory O(measurements)
 /// @ref  Jaulin and Walter, Automatica 29 (1993): SIVIA
 template <std::size_t W = 8>
@@ -87,15 +85,10 @@ public:
 private:
     using block = static_block;
 
-    /// Bytes of what waits and of the result; a list of measurements counts for each box that has
-    /// it.
+    /// Bytes of what waits and of the result.
     [[nodiscard]] std::size_t bytes() const {
         return alone_bytes_ + block_count_ * block::bytes(prior_.size()) + result_.inside.bytes() +
                result_.open.bytes();
-    }
-    [[nodiscard]] static std::size_t bytes_of(static_box const& b) {
-        return sizeof b + b.set.size() * sizeof(interval) +
-               b.open->size() * sizeof(static_samples::index);
     }
 
     void prepare() {
@@ -134,7 +127,7 @@ private:
     void wait(static_box b, bool alone) {
         auto const volume = approximate_volume(b.set);
         if (alone || options_.only_hulls || b.open->size() > block::most_open) {
-            alone_bytes_ += bytes_of(b);
+            alone_bytes_ += b.bytes();
             boxes_[size_class(volume)].push_back(std::move(b));
             return;
         }
@@ -150,14 +143,11 @@ private:
     /// All that waits stays open.
     void stop(stop_reason why) {
         result_.reason = why;
-        for (auto const& [size, list] : boxes_) {
+        for (auto const& [size, list] : boxes_)
             for (auto const& b : list) result_.open.add(b.set);
-        }
-        for (auto const& [size, list] : blocks_) {
-            for (auto const& b : list) {
+        for (auto const& [size, list] : blocks_)
+            for (auto const& b : list)
                 for (std::size_t i = 0; i < b->count; ++i) result_.open.add(b->boxes, i);
-            }
-        }
         boxes_.clear();
         blocks_.clear();
     }
@@ -176,9 +166,8 @@ private:
     }
     [[nodiscard]] double approximate_volume(box const& x) const {
         double v = 1;
-        for (std::size_t j = 0; j < prior_.size(); ++j) {
+        for (std::size_t j = 0; j < x.size(); ++j)
             v *= thick_[j] != 0 ? x[j].upper() - x[j].lower() : 1;
-        }
         return v;
     }
 
@@ -186,7 +175,7 @@ private:
     void survey_one() {
         auto& list = boxes_.begin()->second;
         auto b = std::move(list.front());
-        alone_bytes_ -= bytes_of(b);
+        alone_bytes_ -= b.bytes();
         list.pop_front();
         if (list.empty()) boxes_.erase(boxes_.begin());
         if (options_.only_hulls && known_.size() > 0 && subset(b.set, known_)) {
@@ -194,9 +183,8 @@ private:
             return;
         }
         bool splittable = false;
-        for (std::size_t j = 0; j < prior_.size(); ++j) {
+        for (std::size_t j = 0; j < prior_.size(); ++j)
             splittable = splittable || width(b.set[j]) > 2 * least_[j];
-        }
         auto const before = approximate_volume(b.set);
         auto const found = survey_(b, !splittable);
         ++result_.tested;
@@ -397,9 +385,9 @@ private:
 /// as many as may be outliers.
 /// @throws std::invalid_argument  for a problem that does not fit together (it names what)
 /// @throws unsound_environment    where interval arithmetic would prove nothing (`guard.hpp`)
-/// @guarantee  the boxes and what is excluded cover the prior; inside boxes satisfy the
-/// measurements
-///             throughout, `hull` contains every parameter that does
+/// @guarantee  boxes `inside` are feasible throughout; every feasible parameter of the prior lies
+/// in
+///             a box, and in `hull`
 /// @cost  time and memory linear in the measurements, times the boxes; eight boxes or eight
 ///        measurements at a time
 [[nodiscard]] inline flat_paving invert_static(static_problem const& problem,

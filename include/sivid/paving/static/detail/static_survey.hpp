@@ -24,6 +24,12 @@ struct static_box {
     box set;
     static_list open;
     std::size_t missed = 0;
+
+    /// Memory that it takes; a list counts for each box that has it.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof *this + set.size() * sizeof(interval) +
+               open->size() * sizeof(static_samples::index);
+    }
 };
 
 /// Tests one box at a time against any number of measurements, W of them at once: ranges,
