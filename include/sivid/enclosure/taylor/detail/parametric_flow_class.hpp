@@ -89,9 +89,10 @@ public:
           options_(Centre::fit(options)),
           shape_(&shape_type::of(variables, degree)),
           column_shape_(&shape_type::of(variables, (degree + 1) / 2)),
-          tube_shape_(&shape_type::of(variables + 1, degree >= 5   ? 3
-                                                     : degree >= 2 ? 2
-                                                                   : 1)),
+          // A formula's local error is that of a difference, which varies within the step.
+          tube_shape_(&shape_type::of(variables + 1, degree >= 5                         ? 3
+                                                     : degree >= 2 || Centre::by_formula ? 2
+                                                                                         : 1)),
           path_of_(*shape_, *tube_shape_),
           method_(f, options_, *shape_, *tube_shape_),
           set_(f.states(), *shape_),
