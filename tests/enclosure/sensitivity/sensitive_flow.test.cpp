@@ -220,7 +220,7 @@ TEST_CASE("what low orders leave out, by closed forms, in single long steps") {
             enclosure_options o;
             o.order = order;
             o.tolerance = 10;
-            o.minimum_step = o.maximum_step = h;
+            o.maximum_step = o.minimum_step = h;
             o.widest = o.remainder_share = 1e6;
             CAPTURE(order, h);
             sensitive_flow<> first(*direct, o, 1, 0), second(*growing, o, 1, 0);
