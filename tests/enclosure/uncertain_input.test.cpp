@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/models.hpp"
 #include "support/parametric_sets.hpp"
+#include "support/systems.hpp"
 #include "support/taylor_models.hpp"
 #include "support/uncertain_inputs.hpp"
 
