@@ -10,10 +10,10 @@ TEST_CASE(
     int asked = 0;
     auto const limited = sivid::limited(mine, [&asked] { return ++asked < 2; });
     CHECK(limited.sharp_enough == 0.25);
-    CHECK_FALSE(mine.run.keep_going);
-    REQUIRE(limited.run.keep_going);
+    CHECK_FALSE(mine.keep_going);
+    REQUIRE(limited.keep_going);
     REQUIRE(limited.witness.keep_going);
-    CHECK(limited.run.keep_going());
+    CHECK(limited.keep_going());
     CHECK_FALSE(limited.witness.keep_going());
     CHECK(asked == 2);
 }
