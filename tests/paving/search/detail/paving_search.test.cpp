@@ -511,7 +511,7 @@ TEST_CASE("integrations that are told to stop leave a search that goes on as if 
         for (std::size_t const most : {0u, 3u, 40u, 300u, 2000u}) {
             std::atomic<std::size_t> asked = 0;
             auto options = p.test;
-            options.run.keep_going = [&] { return ++asked <= most; };
+            options.keep_going = [&] { return ++asked <= most; };
             feasibility_test test(problem, options);
             std::shared_ptr<search_state const> saved;
             auto first = p.search;
