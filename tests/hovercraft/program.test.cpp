@@ -107,6 +107,7 @@ TEST_CASE("the fewest outliers are found, stored and checked") {
     auto const fewest = json_of(fs::path{out} / "result.json")["outliers"]["fewest"];
     CHECK(fewest["total"]["least"] == 2);
     CHECK(fewest["total"]["most"] == 2);
+    CHECK(fewest["reason"] == "every box decided");
     auto const checked = run({"check", out, "--sample", "4", "--budget", "60"});
     CHECK_THAT(checked.out, ContainsSubstring("outliers needed"));
     CHECK_THAT(checked.out, !ContainsSubstring("REFUTED"));

@@ -32,6 +32,11 @@ struct explored_box {
     [[nodiscard]] bool is_blind() const {
         return !fresh && std::find(stale.begin(), stale.end(), true) != stale.end();
     }
+    /// Memory that it takes; what is known is shared, and counted by the explorer.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof *this + set.size() * sizeof(interval) + known.size() * sizeof known[0] +
+               smear.size() * sizeof(double);
+    }
     /// Whether every measurement was reached.
     [[nodiscard]] bool is_complete() const {
         return std::all_of(known.begin(), known.end(),

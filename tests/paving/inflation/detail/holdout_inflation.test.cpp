@@ -224,6 +224,17 @@ TEST_CASE("hold-out bounds at the limits") {
         CHECK(found.over_fits.lower() == 0);
         CHECK(found.over_fits.upper() == HUGE_VAL);
     }
+    SECTION("no memory: little is looked at, and nothing lost") {
+        auto little = brief();
+        little.memory = 1;
+        auto const fitted = bound_inflation(fit, nullptr, brief());
+        auto const found = holdout_inflation(fit, fitted, holdout, little);
+        CHECK(found.boxes < holdout_inflation(fit, fitted, holdout, brief()).boxes);
+        REQUIRE(fitted.witness);
+        double const there = holdout_at(fitted.witness->parameters[0], 0, 0);
+        CHECK(found.over_fits.lower() <= there * (1 + 1e-9));
+        CHECK(there * (1 - 1e-9) <= found.over_fits.upper());
+    }
     SECTION("nothing known of the fit: the range over the whole prior") {
         auto const found = holdout_inflation(fit, {}, holdout, brief(0.3));
         CHECK(found.at_witness.upper() == HUGE_VAL);

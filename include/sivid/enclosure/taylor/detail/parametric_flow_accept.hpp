@@ -26,7 +26,7 @@ void parametric_flow<Model, Centre>::accept(mask moved, C const& to, std::size_t
     std::vector<C> lost(n);
     std::vector<polynomial> next(n);
     std::vector<C> tails(n);
-    std::size_t const sharp = sharp_orders(length, order);
+    std::size_t const sharp = Centre::by_formula ? 0 : sharp_orders(length, order);
     bool const sharply = sharp > 0 && expand_sharply(sharp);
     bool pays = false;
     std::size_t const top = tails_ ? order : order + 1;

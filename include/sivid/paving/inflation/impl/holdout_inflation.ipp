@@ -39,6 +39,12 @@ struct holdout_box : explored_box {
     std::vector<std::vector<interval>> outputs;        ///< of the held-out experiments
     bool fits = true;                                  ///< perhaps
     bool settled_below = false, settled_above = false; ///< no closer look would say more
+
+    [[nodiscard]] std::size_t bytes() const {
+        auto sum = explored_box::bytes();
+        for (auto const& list : outputs) sum += list.size() * sizeof(interval);
+        return sum;
+    }
 };
 
 /// The measurements that are met where the inflation is at most `level`.
@@ -198,10 +204,11 @@ public:
                    outlier_budgets(both), all_starts},
                   start) {}
 
-    /// @param work     boxes looked at and integrations; a step that was begun is ended
+    /// @param most     of its boxes (with integrations) and bytes; a step that was begun is ended
     /// @param in_time  false ends it between two experiments
-    void narrow(std::size_t work, std::function<bool()> const& in_time) {
-        while (tested() + integrations() < work && in_time() && unsettled_end()) {
+    void narrow(inflation_options const& most, std::function<bool()> const& in_time) {
+        while (tested() + integrations() < most.boxes && search_.bytes() <= most.memory &&
+               in_time() && unsettled_end()) {
             search_.step(in_time);
         }
     }
@@ -354,7 +361,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         paving_detail::holdout_range search(
             paving_detail::started_near(posed, fit.experiments.size(), likely_starts, share),
             fit.experiments.size(), fitted.value.upper(), start, good, last, timely);
-        search.narrow(options.boxes, [&] { return clock.spent() < end && go_on(); });
+        search.narrow(options, [&] { return clock.spent() < end && go_on(); });
         auto const found = search.range();
         result.boxes += search.tested();
         result.integrations += search.integrations();

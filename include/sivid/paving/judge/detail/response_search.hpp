@@ -56,7 +56,10 @@ public:
     [[nodiscard]] std::size_t integrations() const { return explorer_.integrations(); }
     /// Bytes of boxes and of what is known of them.
     [[nodiscard]] std::size_t bytes() const {
-        return explorer_.bytes() + (waiting_.size() + stuck_.size()) * sizeof(node);
+        auto sum = explorer_.bytes();
+        for (auto const* list : {&waiting_, &stuck_})
+            for (auto const& x : *list) sum += x.bytes();
+        return sum;
     }
 
     /// The box that comes first; null when none is of interest.
