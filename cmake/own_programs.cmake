@@ -45,10 +45,11 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
 endif()
 
 add_compile_definitions("SIVID_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
-get_filename_component(sivid_shared_dir "${PROJECT_SOURCE_DIR}/../shared" ABSOLUTE)
-if(IS_DIRECTORY "${sivid_shared_dir}/data")   # reference data that may lie beside the checkout
-    add_compile_definitions("SIVID_SHARED_DIR=\"${sivid_shared_dir}\"")
-endif()
+# Tests of records that are not part of the repository, since nobody licensed them, are skipped where the folder lacks them.
+get_filename_component(sivid_measured "${PROJECT_SOURCE_DIR}/../shared/data" ABSOLUTE)
+set(SIVID_MEASURED_DATA "${sivid_measured}" CACHE PATH
+    "Folder with the records of measured machines, emps and cascaded_tanks (docs/servo_axis.md, docs/tanks.md)")
+add_compile_definitions("SIVID_MEASURED_DATA=\"${SIVID_MEASURED_DATA}\"")
 
 # sivid_add_folders(<folder>): adds each sub-folder that has a CMakeLists.txt.
 function(sivid_add_folders folder)

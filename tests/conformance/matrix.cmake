@@ -2,7 +2,7 @@
 # The run-time vectors, the literal vectors, the code shapes and the laws of every interval type, for each compiler that
 # is installed, at each optimisation level, for this machine or any x86-64, with -frounding-math or not:
 # 24 configurations, one line and its time each. Warnings are errors.
-#     cmake -DSOURCE=<repository> -DSHARED=<folder with vectors/> -DLITERALS=<stem> -DPARTS=<n> -DWORK=<folder>
+#     cmake -DSOURCE=<repository> -DLITERALS=<stem> -DPARTS=<n> -DWORK=<folder>
 #           [-DCOMPILERS=g++;clang++] [-DLEVELS=-O0;-O2;-O3] [-DMACHINES=any;-march=native] -P matrix.cmake
 cmake_minimum_required(VERSION 3.22)
 
@@ -24,10 +24,7 @@ endif()
 set(warnings -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-restrict -Werror)
 set(tests "${SOURCE}/tests/conformance")
 set(libraries -lmpfi -lmpfr -lgmp -pthread)
-set(vectors_per_type 0)
-if(EXISTS "${SHARED}/vectors")
-    set(vectors_per_type 7000)
-endif()
+set(vectors_per_type 7000)
 math(EXPR last "${PARTS} - 1")
 set(parts "${LITERALS}_main.cpp")
 foreach(part RANGE ${last})
@@ -111,7 +108,7 @@ foreach(compiler IN LISTS COMPILERS)
                 literals(mp_interval sivid::mp_interval sivid/number/mp_interval.hpp -DSIVID_LITERAL_CALLS)
 
                 set(main_object "${catch_main}")
-                build(shapes FLAGS ${flags} "-DSIVID_SHARED_DIR=\"${SHARED}\""
+                build(shapes FLAGS ${flags} "-DSIVID_SOURCE_DIR=\"${SOURCE}\""
                       SOURCES "${tests}/vectors.test.cpp" "${tests}/shapes.test.cpp" "${tests}/shapes_elsewhere.cpp"
                               "${SOURCE}/tests/laws/laws.test.cpp")
                 run_or_stop("${name}: vectors and shapes" "${WORK}/shapes")

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct vector_line {
     double result(std::size_t i) const { return std::strtod(results.at(i).c_str(), nullptr); }
 };
 
-/// The lines of a vector file; none if it is not there.
+/// The lines of a vector file.
+/// @throws std::runtime_error  naming the file, where it has none
 inline std::vector<vector_line> read_vectors(std::string const& path) {
     std::vector<vector_line> lines;
     std::ifstream in{path};
@@ -39,6 +41,7 @@ inline std::vector<vector_line> read_vectors(std::string const& path) {
         }
         lines.push_back(std::move(line));
     }
+    if (lines.empty()) throw std::runtime_error("no test vectors in '" + path + "'");
     return lines;
 }
 

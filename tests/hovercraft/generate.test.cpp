@@ -107,17 +107,6 @@ TEST_CASE("the bundled campaign is what `generate` makes, to the last digit") {
     CHECK(sivid::measurements_csv(made.data.scenarios[0], f.names) ==
           text_of(bundled / "S3.measurements.csv"));
     CHECK(sivid::dataset_json(made.data, f.names) == text_of(bundled / "dataset.json"));
-#ifdef SIVID_SHARED_DIR
-    fs::path const shared = fs::path{SIVID_SHARED_DIR} / "data/h3";
-    CHECK(text_of(shared / "S3.inputs.csv") == text_of(bundled / "S3.inputs.csv"));
-    CHECK(text_of(shared / "S3.measurements.csv") == text_of(bundled / "S3.measurements.csv"));
-    auto const a = sivid::read_dataset(shared, f.names), b = sivid::read_dataset(bundled, f.names);
-    for (std::size_t j = 0; j < 3; ++j) {
-        CHECK(a.parameters[j].name == b.parameters[j].name);
-        CHECK(a.parameters[j].prior.lower == b.parameters[j].prior.lower);
-        CHECK(a.parameters[j].prior.upper == b.parameters[j].prior.upper);
-    }
-#endif
 }
 
 TEST_CASE("the planted truth lies within the bound of every sample that is not an outlier") {

@@ -128,7 +128,7 @@ TEST_CASE("compressed MATLAB files: read, or refused with a way out", "[import]"
     auto const whole = import_mat(packed);
     if (whole.code == 2) { // built without zlib
         CHECK_THAT(whole.err, ContainsSubstring("save -v6"));
-        return;
+        SIVID_SKIP("sivid-import was built without zlib");
     }
     CHECK(whole.code == 0);
     CHECK_THAT(folder.read("out/A.measurements.csv"), ContainsSubstring("\n1,4,0.1\n"));

@@ -100,14 +100,12 @@ TEST_CASE("a model without inputs is written with its time axis") {
     check_equal(data, read_dataset(folder.path() / "new", model));
 }
 
-#ifdef SIVID_SHARED_DIR
 TEST_CASE("a reference campaign survives writing") {
     auto const model = io_support::hovercraft_names();
     temporary_folder const copy;
-    for (auto const* name : {"/data/h3", "/data/dev/dev003"}) {
-        auto const data = read_dataset(std::string{SIVID_SHARED_DIR} + name, model);
+    for (auto const* name : {"/examples/hovercraft/data/h3", "/tests/data/campaigns/dev003"}) {
+        auto const data = read_dataset(std::string{SIVID_SOURCE_DIR} + name, model);
         write_dataset(data, model, copy.path() / data.id);
         check_equal(data, read_dataset(copy.path() / data.id, model));
     }
 }
-#endif

@@ -17,13 +17,7 @@ using support::text_of;
 
 namespace {
 
-fs::path real_record() {
-#ifdef SIVID_SHARED_DIR
-    return fs::path{SIVID_SHARED_DIR} / "data/emps";
-#else
-    return "missing";
-#endif
-}
+fs::path real_record() { return fs::path{SIVID_MEASURED_DATA} / "emps"; }
 
 nlohmann::json const* cause_of(nlohmann::json const& d, nlohmann::json effects) {
     for (auto const& c : d["causes"]) {
@@ -37,11 +31,10 @@ nlohmann::json const* cause_of(nlohmann::json const& d, nlohmann::json effects) 
 
 } // namespace
 
-TEST_CASE("the real axis: offset and friction explain most, the direction the rest", "[.long]") {
-    if (!fs::exists(real_record() / "validation_200Hz.csv")) {
-        WARN("skipped: the EMPS records are not there (docs/servo_axis.md says where to get them)");
-        return;
-    }
+TEST_CASE("the real axis: offset and friction explain most, the direction the rest", "[.long][measured]") {
+    if (!fs::exists(real_record() / "validation_200Hz.csv"))
+        SIVID_SKIP("no EMPS records in '" << real_record().string()
+                                          << "' (see docs/servo_axis.md)");
     temporary_folder const folder;
     auto const out = folder.path() / "out";
 #ifdef SIVID_SANITIZED

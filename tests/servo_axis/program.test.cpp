@@ -153,15 +153,9 @@ TEST_CASE("bad input gives one message, exit code 2 and no output", "[servo_axis
 }
 
 TEST_CASE("the real axis: consistent, narrow hulls, the literature within", "[servo_axis][real]") {
-#ifdef SIVID_SHARED_DIR
-    fs::path const data = fs::path{SIVID_SHARED_DIR} / "data/emps";
-#else
-    fs::path const data = "missing";
-#endif
-    if (!fs::exists(data / "estimation_200Hz.csv")) {
-        WARN("skipped: the EMPS record is not there (docs/servo_axis.md says where to get it)");
-        return;
-    }
+    fs::path const data = fs::path{SIVID_MEASURED_DATA} / "emps";
+    if (!fs::exists(data / "estimation_200Hz.csv"))
+        SIVID_SKIP("no EMPS record in '" << data.string() << "' (see docs/servo_axis.md)");
     temporary_folder const folder;
     auto const out = folder.path() / "out";
     child const c({data.string(), "--out", out.string(), "--accuracy", "0.06", "--budget", "200"},

@@ -25,13 +25,7 @@ using support::text_of;
 
 namespace {
 
-fs::path real_record() {
-#ifdef SIVID_SHARED_DIR
-    return fs::path{SIVID_SHARED_DIR} / "data/cascaded_tanks";
-#else
-    return "missing";
-#endif
-}
+fs::path real_record() { return fs::path{SIVID_MEASURED_DATA} / "cascaded_tanks"; }
 
 /// A record of so many samples with the pump at one voltage.
 std::string constant_record(double voltage, int samples) {
@@ -78,12 +72,10 @@ TEST_CASE("water over a rim is lost but for its share", "[tanks]") {
     CHECK_THAT(level(1), WithinAbs(root(0.25), 0.05));
 }
 
-TEST_CASE("the real tanks: where, which, and what stays", "[.long]") {
-    if (!fs::exists(real_record() / "validation.csv")) {
-        WARN("skipped: the records of the tanks are not there (docs/tanks.md says where to get "
-             "them)");
-        return;
-    }
+TEST_CASE("the real tanks: where, which, and what stays", "[.long][measured]") {
+    if (!fs::exists(real_record() / "validation.csv"))
+        SIVID_SKIP("no records of the tanks in '" << real_record().string()
+                                                  << "' (see docs/tanks.md)");
     temporary_folder const folder;
     auto const out = folder.path() / "out";
     REQUIRE(run_program(TANKS_PROGRAM, {real_record().string(), "--quiet", "--out", out.string()})
