@@ -13,13 +13,12 @@ using sivid::work_limit;
 
 TEST_CASE("a limit ends after its seconds, and its copies with it") {
     using namespace std::chrono_literals;
-    work_limit const limit(0.05);
+    work_limit const longer(1000);
+    CHECK(longer());
+    CHECK(longer.seconds() <= 1000);
+    work_limit const limit(0.01);
     std::function<bool()> const copy = limit;
-    CHECK(limit());
-    CHECK(copy());
-    CHECK(limit.seconds() > 0);
-    CHECK(limit.seconds() <= 0.05);
-    std::this_thread::sleep_for(60ms);
+    std::this_thread::sleep_for(20ms);
     CHECK_FALSE(limit());
     CHECK_FALSE(copy());
     CHECK(limit.seconds() == 0);
@@ -64,6 +63,5 @@ TEST_CASE("what is spent counts from the begin, of copies too") {
     auto const same = clock;
     for (double const spent : {clock.spent(), same.spent(), limit.spent(), copy.spent()}) {
         CHECK(spent >= 0.02);
-        CHECK(spent < 10);
     }
 }

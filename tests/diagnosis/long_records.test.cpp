@@ -4,6 +4,7 @@
 #include <sivid/model/effects.hpp>
 
 #include "support/catch.hpp"
+#include "support/sweep.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -85,7 +86,7 @@ void find(missing effect, std::string const& name, double size, int seconds, dou
     options.hulls.boxes = 8; // nothing here asks for them
     auto const d = diagnose(std::move(problem), catalogue, options).result;
     INFO(d.seconds << " s");
-    CHECK(d.seconds < 1.05 * budget + 2);
+    if (support::long_sweeps) CHECK(d.seconds < 1.05 * budget + 2);
     for (auto const& c : find_contradictions(d)) FAIL_CHECK(c.claim + ": " + c.reason);
     CHECK(d.gap == gap_verdict::certified);
     CHECK(d.answer == answer_kind::effects);

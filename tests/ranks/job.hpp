@@ -56,8 +56,8 @@ public:
 inline support::finished_program run_job(std::size_t ranks, words const& arguments) {
     io_support::temporary_folder const folder;
     job const j(ranks, arguments, folder.path());
-    auto const end = j.wait_at_most(120);
-    return {end.code, j.out(), j.err()};
+    int const code = j.wait_at_most(120);
+    return {code, j.out(), j.err()};
 }
 inline support::finished_program run_alone(words const& arguments) {
     return support::run_program(HOVERCRAFT_PROGRAM, arguments);

@@ -56,26 +56,15 @@ public:
     [[nodiscard]] int wait() const {
         int status = 0;
         ::waitpid(id_, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+        return ending(status);
     }
-    /// How a program ended, and what it took.
-    struct ending {
-        int code = 0;         ///< as of `wait`; 1000 + SIGKILL: it had to be killed
-        double processor = 0; ///< [s]
-    };
     /// Kills it after so many seconds.
-    [[nodiscard]] ending wait_at_most(double seconds) const {
+    /// @returns  as `wait`; 1000 + SIGKILL: it had to be killed
+    [[nodiscard]] int wait_at_most(double seconds) const {
         auto const begin = std::chrono::steady_clock::now();
         for (;;) {
             int status = 0;
-            ::rusage used{};
-            if (::wait4(id_, &status, WNOHANG, &used) == id_) {
-                auto const spent = [](::timeval const& t) {
-                    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-                };
-                return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status),
-                        spent(used.ru_utime) + spent(used.ru_stime)};
-            }
+            if (::waitpid(id_, &status, WNOHANG) == id_) return ending(status);
             if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >
                 seconds) {
                 ::kill(id_, SIGKILL);
@@ -88,6 +77,9 @@ public:
     [[nodiscard]] std::string err() const { return text_of(err_); }
 
 private:
+    static int ending(int status) {
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    }
     static void redirect(std::filesystem::path const& file, int to) {
         int const handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
         ::dup2(handle, to);

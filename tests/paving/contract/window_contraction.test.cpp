@@ -218,7 +218,7 @@ TEST_CASE("windows end in time and when told to") {
     options.keep_going = [&] { return ++asked < 200; };
     auto const left = contract_by_windows(p, options);
     CHECK(contains(left.rest, std::vector<double>{9, 0.3, 4}));
-    CHECK(left.seconds < 30);
+    CHECK(asked < 1000); // who was told to stop asks a few times more at most
 }
 
 TEST_CASE("starts that are decimals are known and those of which little is known hinder") {
