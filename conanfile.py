@@ -49,7 +49,7 @@ class Sivid(ConanFile):
     def validate(self):
         check_min_cppstd(self, 20)
         if self.settings.arch != "x86_64" or self.settings.os != "Linux":
-            raise ConanInvalidConfiguration("sivid is written for x86-64 and tested with glibc only")
+            raise ConanInvalidConfiguration("this recipe is tried on x86-64 Linux with glibc only; copy include/ elsewhere (README)")
         oldest = {"gcc": 12, "clang": 14}.get(str(self.settings.compiler))
         if oldest and int(str(self.settings.compiler.version).split(".")[0]) < oldest:
             raise ConanInvalidConfiguration(f"sivid needs {self.settings.compiler} {oldest} or newer")

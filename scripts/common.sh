@@ -38,6 +38,33 @@ need_packages() {
 # need_program COMMAND PACKAGE: the package, unless the command is there by other means.
 need_program() { command -v "$1" >/dev/null 2>&1 || need_packages "$2"; }
 
+# in_bare ROOT COMMAND...: in a bare system, with nothing of the environment here.
+in_bare() {
+    local root=$1
+    shift
+    chroot "$root" /usr/bin/env -i PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C \
+        DEBIAN_FRONTEND=noninteractive "$@"
+}
+
+# bare_system DIR SUITE [LOCATION [SCRIPT]]: DIR/bare.tar, a Debian that has nothing but apt; made once. Leaves the script
+# with 77 where that cannot be done: no root, no debootstrap, no mirror.
+bare_system() {
+    local dir=$1 suite=$2
+    if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
+        say "test skipped: a bare Debian needs root and debootstrap (apt-get install debootstrap)"
+        exit 77
+    fi
+    [ ! -s "$dir/bare.tar" ] || return 0
+    shift 2
+    rm -rf --one-file-system "$dir/bare"
+    if ! debootstrap --variant=minbase "$suite" "$dir/bare" "$@" >"$dir/debootstrap.log" 2>&1; then
+        say "test skipped: debootstrap made no bare $suite ($dir/debootstrap.log)"
+        exit 77
+    fi
+    tar -cf "$dir/bare.tar.part" -C "$dir/bare" . && mv "$dir/bare.tar.part" "$dir/bare.tar"
+    rm -rf --one-file-system "$dir/bare"
+}
+
 # job_count: one job for each core, fewer where memory is short (1.5 GB for each compiler).
 job_count() {
     local cores memory_kb by_memory
@@ -52,8 +79,8 @@ job_count() {
 # need_check_packages: what all tests need.
 need_check_packages() {
     need_packages g++ clang cmake make ninja-build libboost-dev libeigen3-dev nlohmann-json3-dev libcli11-dev catch2 \
-        libmpfr-dev libmpfi-dev libgmp-dev libbenchmark-dev libtbb-dev libboost-mpi-dev openmpi-bin libopenmpi-dev \
-        pkg-config dpkg-dev file
+        libmpfr-dev libmpfi-dev libgmp-dev libbenchmark-dev libfmt-dev libtbb-dev libboost-mpi-dev openmpi-bin libopenmpi-dev \
+        pkg-config dpkg-dev file debootstrap
 }
 
 # configure_check [ON]: the build tree of scripts/check, or (ON) of scripts/check-long; its name is then in $build.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ten tenths: their double sum is not 1, the product of enclosures contains it. What includes all
-// of <sivid/sivid.hpp> compiles for a minute; these headers do not.
+// Ten tenths: their double sum is not 1, the product of enclosures contains it. These headers
+// compile in seconds; all of <sivid/sivid.hpp> does not.
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/space/matrix.hpp>
 #include <sivid/version.hpp>

@@ -122,7 +122,7 @@ std::string wrong_command(std::string const& line) {
     while (program.find('=') != std::string::npos) words >> program; // VARIABLE=value
     if (program == "sudo") words >> program;
     static std::set<std::string> const tools{"apt",   "cd",    "cp",  "cmake", "mpirun",
-                                             "conan", "ctest", "g++", "vcpkg"};
+                                             "conan", "ctest", "export", "g++", "vcpkg"};
     std::filesystem::path const root{SIVID_SOURCE_DIR};
     bool const script =
         program.find('/') != std::string::npos && std::filesystem::exists(root / program);
