@@ -13,6 +13,7 @@ TEST_CASE("findings begin with nothing proved") {
     CHECK(relation_window{"S", 0, 1} == relation_window{"S", 0, 1});
     CHECK_FALSE(relation_window{"S", 0, 1} == relation_window{"T", 0, 1});
     relation_options const options;
-    CHECK(options.shortest < options.longest);
+    CHECK(options.shortest_gaps >= 1);
+    CHECK(options.shortest_share < 1);
     CHECK(options.least_margin > 0);
 }

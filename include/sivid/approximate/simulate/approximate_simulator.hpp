@@ -59,6 +59,11 @@ public:
     [[nodiscard]] approximate_model const& model() const { return rate_.model(); }
     [[nodiscard]] std::vector<double> const& knots() const { return rate_.knots(); }
     [[nodiscard]] std::vector<output_request> const& requests() const { return mesh_.requests(); }
+    /// Per state, of one step, from now on.
+    void set_tolerances(std::vector<double> tolerances) {
+        steps_->tolerance.absolute = std::move(tolerances);
+        steps_->restart();
+    }
     /// Scales the tolerances of the steps from now on. @param relative  share of a state's size
     void set_accuracy(double factor, double relative = 1e-6) {
         steps_->tolerance.accuracy = factor;

@@ -103,7 +103,7 @@ public:
         }
         std::sort(times_.begin(), times_.end());
         // Times that differ by rounding only are one.
-        double const close = 1e-12 * std::max({1.0, std::abs(begin_), std::abs(end)});
+        double const close = 1e-12 * std::max(std::abs(begin_), std::abs(end));
         times_.erase(std::unique(times_.begin(), times_.end(),
                                  [close](double a, double b) { return b - a <= close; }),
                      times_.end());

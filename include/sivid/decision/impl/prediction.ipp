@@ -168,7 +168,7 @@ private:
         std::map<item*, double> weight;
         for (std::size_t y = 0; y < count; ++y) {
             double const width = high[y] - low[y];
-            double const tiny = 1e-6 * (1 + std::abs(high[y]));
+            double const tiny = 1e-6 * std::max(std::abs(low[y]), std::abs(high[y]));
             double const attained = std::max(inner_high[y] - inner_low[y], 0.0) + tiny;
             double const share = std::isfinite(width) ? (width - tiny) / attained - 1 : infinity;
             result.largest = std::max(result.largest, share);

@@ -58,7 +58,8 @@ namespace sivid {
     // The last line goes on to the right.
     auto const last = sampled.times().size() - 1;
     if (!holds && last > 0 && !(sampled.times()[last] > begin) && late.drift < 1) {
-        double const far = begin + std::max(1.0, std::abs(begin));
+        double const piece = sampled.times()[last] - sampled.times()[last - 1];
+        double const far = begin + std::max(piece, std::abs(begin));
         auto const value = sampled.value<interval>(sampled.piece(far), interval(far));
         add(late.seen(far, begin), mid(value), rad(value) + sampled.error_bound(last, far));
     } else if (sampled.exact()) {

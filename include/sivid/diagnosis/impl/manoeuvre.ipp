@@ -69,7 +69,7 @@ private:
         e.name = m.name;
         e.inputs = m.inputs(settings);
         e.initial = point_box(m.start);
-        for (double t = period_; t <= m.duration + 1e-9; t += period_) {
+        for (double t = period_; t <= m.duration + 1e-9 * period_; t += period_) {
             for (std::size_t y = 0; y < errors_.size(); ++y) {
                 if (!(errors_[y] > 0)) continue;
                 auto const bound = interval_traits<interval>::bounds(-errors_[y], errors_[y]);

@@ -63,9 +63,10 @@ struct relation_finding {
     std::optional<proved_place> place; ///< where no sensor can be what is wrong
 };
 
-/// How relations are examined.
+/// How relations are examined. Windows are at most as long as the record.
 struct relation_options {
-    double shortest = 0.3, longest = 10; ///< of the windows [s]; see `weak_equation::over`, too
+    double shortest_gaps = 3;     ///< the shortest window: so many gaps between samples,
+    double shortest_share = 0.01; ///< and no less than this share of the record
     /// A proof by less than this is not reported: reserve against assumptions that are met barely.
     double least_margin = 0.02;
     std::size_t cells_per_gap = 6;    ///< cells between two samples

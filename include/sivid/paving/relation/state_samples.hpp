@@ -4,6 +4,7 @@
 
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/sampling.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
@@ -66,6 +67,10 @@ struct state_samples {
         if (times.size() < 2) return period();
         double const all = times.back() - times.front();
         return std::max(period(), all / static_cast<double>(4 * (times.size() - 1)));
+    }
+    /// See `sampling`, by `spacing`.
+    [[nodiscard]] sampling seen() const {
+        return {spacing(), times.empty() ? 0 : times.back() - times.front()};
     }
     /// Without those that have no bound on some side: of them no rate can be told.
     [[nodiscard]] state_samples bounded() const {

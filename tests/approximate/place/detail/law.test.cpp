@@ -38,7 +38,7 @@ TEST_CASE("the library speaks of the model's own quantities") {
     CHECK_THAT(named("u*v")[0], WithinAbs(0.5, 1e-15));
     CHECK_THAT(named("cos(psi), sin(psi)")[1], WithinAbs(std::cos(0.1), 1e-15));
     CHECK_THAT(named("speed*u")[1], WithinAbs(4, 1e-12));
-    CHECK_THAT(named("exp(-t/0.25)")[1], WithinAbs(std::exp(-4.0), 1e-12));
+    CHECK_THAT(named("exp(-t/0.5)")[1], WithinAbs(std::exp(-2.0), 1e-12)); // half a step
     auto const inputs = library.for_input(1);
     CHECK(inputs.front().text == "1");
     auto const hinge = std::find_if(inputs.begin(), inputs.end(),

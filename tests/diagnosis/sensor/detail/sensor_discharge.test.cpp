@@ -131,7 +131,7 @@ TEST_CASE("a record that ends before a sensor may show anything discharges nobod
         e.measurements.push_back({0.1 + k * 0.01, 0, around(k * 1.0, 0.001)});
     problem.experiments.push_back(std::move(e));
     relation_options options;
-    options.shortest = 0.01;
+    options.shortest_gaps = 1;
     auto const found = examine_relations(problem, options)[0];
     REQUIRE(found.proved);
     sensor_fault_ranges ranges;

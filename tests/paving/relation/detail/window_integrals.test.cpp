@@ -79,7 +79,7 @@ TEST_CASE("windows enclose the integrals, directly and by parts") {
         auto const set = integrand_set::of(b.g, b.functions, 3, 0);
         auto const cells = circle(d, 6, 0.025, d.uniform(0, 0.05), d.uniform(0, 0.1));
         std::vector<derivative_pair> const pairs{{1, 0}};
-        window_integrals const integrals(set, cells, pairs);
+        window_integrals const integrals(set, cells, pairs, 0, 0.5);
         auto const q_at = [](std::size_t, std::size_t k) {
             return around(std::sin(0.025 * static_cast<double>(k)), 0.01);
         };
@@ -108,7 +108,7 @@ TEST_CASE("by parts, an error along the window becomes one at its ends") {
     bench b;
     auto const set = integrand_set::of(b.g, b.functions, 3, 0);
     auto const cells = circle(d, 6, 0.025, 0.01, 0.1);
-    window_integrals const integrals(set, cells, {{1, 0}});
+    window_integrals const integrals(set, cells, {{1, 0}}, 0, 0.5);
     auto const q_at = [](std::size_t, std::size_t k) {
         return around(std::sin(0.025 * static_cast<double>(k)), 0.01);
     };
@@ -128,7 +128,7 @@ TEST_CASE("a cell in which nothing is known spoils the windows that contain it, 
     auto cells = circle(d, 1, 0.1, 0.01, 0.1);
     cells[5].at.states[2] = interval_traits<interval>::entire();
     cells[5] = still(cells[5].from, cells[5].to, cells[5].at);
-    window_integrals const integrals(set, cells, {{1, 0}});
+    window_integrals const integrals(set, cells, {{1, 0}}, 0, 0.5);
     CHECK(is_bounded(integrals.direct(1, 0, 5)));
     CHECK(is_entire(integrals.direct(1, 3, 7)));
     CHECK(is_bounded(integrals.direct(1, 6, 10)));

@@ -59,11 +59,14 @@ public:
                 radii.push_back(std::max(rad(m.bound), std::numeric_limits<double>::min()));
             }
             outliers_.push_back(s.outliers);
-            auto accuracy = tolerances(e, requests);
+            shown_.push_back(states_shown(e, requests));
+            std::vector<double> sizes;
+            for (auto const& state : problem.model.about.states) sizes.push_back(state.limit);
             simulators_.emplace_back(models_.back(), s.inputs, s.begin, std::move(requests),
-                                     std::move(accuracy),
+                                     tolerances(e, sizes),
                                      knots.empty() ? std::vector<double>{} : knots[e]);
         }
+        sized_.assign(simulators_.size(), 0);
         outputs_.resize(simulators_.size());
         release({}, std::vector<bool>(problem.prior.size(), true));
     }
@@ -80,6 +83,9 @@ public:
     }
     [[nodiscard]] std::vector<double> const& centres(std::size_t e) const { return centres_[e]; }
     [[nodiscard]] std::vector<double> const& radii(std::size_t e) const { return radii_[e]; }
+    /// By how much each state may be off where the channels that show it stay within the finest of
+    /// their bounds; infinite where none does.
+    [[nodiscard]] std::vector<double> const& shown_within(std::size_t e) const { return shown_[e]; }
 
     /// Chooses the variables: equations with a disturbance, and which parameters may vary; the
     /// others stand where `hold` puts them.
@@ -247,6 +253,7 @@ private:
     [[nodiscard]] bool run(std::size_t e, arrow_vector const& z, std::vector<double> const& p,
                            std::vector<double>& r, bool sensitive) {
         auto& out = outputs_[e];
+        if (sized_[e] == 0) sized_[e] = size_tolerances(e, z) ? 1 : 0;
         if (!simulators_[e](start(e, z), p, disturbance(e, z), layouts_[e], sensitive, out)) {
             return false;
         }
@@ -261,12 +268,13 @@ private:
         }
         return true;
     }
-    /// A small share of the error bounds for states that are measured directly, else of their size.
+    /// See `shown_within`, at the middle of start and prior. A channel of which all that a state
+    /// may be fills a twentieth of a bound does not show it.
     [[nodiscard]] std::vector<double>
-    tolerances(std::size_t e, std::vector<output_request> const& requests) const {
+    states_shown(std::size_t e, std::vector<output_request> const& requests) const {
         auto const& model = *models_[e];
-        std::vector<double> result(model.states(), 1e-6);
-        std::vector<double> finest(model.channels(), 1e-2);
+        constexpr double none = std::numeric_limits<double>::infinity();
+        std::vector<double> result(model.states(), none), finest(model.channels(), none);
         for (std::size_t k = 0; k < requests.size(); ++k) {
             finest[requests[k].channel] = std::min(finest[requests[k].channel], radii_[e][k]);
         }
@@ -280,19 +288,44 @@ private:
         f.expansion.prepare(memory);
         f.expansion.run(memory);
         for (auto const& d : f.by_state) {
-            double const slope = std::abs(memory[d.slot]);
-            if (!(slope > 1e-9) || !std::isfinite(slope)) continue;
-            double const tolerance = 5e-5 * finest[d.row] / slope;
-            auto& own = result[d.column];
-            own = own == 1e-6 ? tolerance : std::min(own, tolerance);
+            double const within = finest[d.row] / std::abs(memory[d.slot]);
+            if (within < 20 * problem_->model.about.states[d.column].limit)
+                result[d.column] = std::min(result[d.column], within);
         }
         return result;
+    }
+    /// A small share of the error bounds for states that are measured directly, else of their size.
+    [[nodiscard]] std::vector<double> tolerances(std::size_t e,
+                                                 std::vector<double> const& sizes) const {
+        std::vector<double> result;
+        for (std::size_t i = 0; i < sizes.size(); ++i)
+            result.push_back(std::isfinite(shown_[e][i]) ? 5e-5 * shown_[e][i] : 1e-6 * sizes[i]);
+        return result;
+    }
+    /// Own ranges of states may be far larger than the states: where no channel shows one, its
+    /// tolerance becomes a share of what it is along this motion.
+    /// @returns false when the simulation fails
+    [[nodiscard]] bool size_tolerances(std::size_t e, arrow_vector const& z) {
+        if (std::all_of(shown_[e].begin(), shown_[e].end(), [](double x) { return x < HUGE_VAL; }))
+            return true;
+        simulated_trace seen;
+        if (!trace(e, z, seen)) return false;
+        auto const& states = problem_->model.about.states;
+        std::vector<double> sizes(states.size(), 0.0);
+        for (auto const& x : seen.states)
+            for (std::size_t i = 0; i < sizes.size(); ++i)
+                sizes[i] = std::max(sizes[i], std::abs(x[i]));
+        for (std::size_t i = 0; i < sizes.size(); ++i)
+            if (!(sizes[i] > 0)) sizes[i] = states[i].limit;
+        simulators_[e].set_tolerances(tolerances(e, sizes));
+        return true;
     }
 
     identification_problem const* problem_;
     std::vector<std::shared_ptr<approximate_model const>> models_;
     std::vector<approximate_simulator> simulators_;
-    std::vector<std::vector<double>> centres_, radii_;
+    std::vector<std::vector<double>> centres_, radii_, shown_;
+    std::vector<char> sized_; ///< whether tolerances of an experiment follow a motion
     std::vector<std::size_t> outliers_, free_, starts_;
     std::vector<sensitivity_layout> layouts_;
     std::vector<double> held_;

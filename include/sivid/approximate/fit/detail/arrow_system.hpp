@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace sivid {
@@ -59,7 +59,9 @@ public:
     [[nodiscard]] Eigen::MatrixXd& matrix(std::size_t e) { return matrices_[e]; }
     [[nodiscard]] Eigen::VectorXd& side(std::size_t e) { return sides_[e]; }
 
-    /// Solves (matrix + damping diagonal) x = side. Variables for which `held` is not 0 stay 0.
+    /// Solves (matrix + damping diagonal) x = side. Variables for which `held` is not 0 stay 0, and
+    /// so do those of which nothing depends. In other units of the variables the solution is the
+    /// same in these: nothing is added to a diagonal but shares of itself.
     /// @returns false when a pivot is not positive
     [[nodiscard]] bool solve(double damping, arrow_vector const& held, arrow_vector& x) {
         auto const g = globals_;
@@ -91,7 +93,8 @@ public:
         for (std::size_t e = 0; e < matrices_.size() && g > 0; ++e) {
             diagonal += matrices_[e].diagonal().head(g);
         }
-        schur.diagonal() += damping * diagonal.cwiseMax(tiny) + Eigen::VectorXd::Constant(g, tiny);
+        for (Eigen::Index i = 0; i < g; ++i)
+            schur(i, i) += damped(diagonal[i], damping, matrices_.front().rows());
         for (Eigen::Index i = 0; i < g; ++i) {
             if (held.global[i] == 0) continue;
             schur.row(i).setZero();
@@ -132,12 +135,16 @@ public:
     }
 
 private:
-    static constexpr double tiny = 1e-12;
-
+    /// What is added to an entry of a diagonal: a share of it that is more than the rounding errors
+    /// of an elimination of so many rows, and the damping. An entry of 0 has a row of zeros.
+    [[nodiscard]] static double damped(double entry, double damping, Eigen::Index rows) {
+        if (!(entry > 0)) return 1;
+        constexpr double unit = std::numeric_limits<double>::epsilon();
+        return (damping + static_cast<double>(rows) * unit) * entry;
+    }
     static void damp(Eigen::MatrixXd& own, double damping) {
-        for (Eigen::Index i = 0; i < own.rows(); ++i) {
-            own(i, i) += damping * std::max(own(i, i), tiny) + tiny;
-        }
+        auto const rows = own.rows();
+        for (Eigen::Index i = 0; i < rows; ++i) own(i, i) += damped(own(i, i), damping, rows);
     }
     static void hold(Eigen::MatrixXd& own, Eigen::MatrixXd& right, Eigen::Index i) {
         own.row(i).setZero();

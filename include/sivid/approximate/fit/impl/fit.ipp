@@ -154,7 +154,7 @@ private:
     /// Of the box of the variables.
     [[nodiscard]] arrow_vector sides() const {
         auto unit = campaign_.upper();
-        unit.for_each([](double& u, double lo) { u = std::max(u - lo, 1e-12); }, campaign_.lower());
+        unit.for_each([](double& u, double lo) { u -= lo; }, campaign_.lower());
         return unit;
     }
 

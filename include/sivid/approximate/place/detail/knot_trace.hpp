@@ -34,8 +34,9 @@ struct knot_trace {
     std::copy(p.begin(), p.end(), memory.begin() + static_cast<std::ptrdiff_t>(shape.constant()));
     f.expansion.prepare(memory);
     double const begin = c.problem().experiments[e].begin;
+    double const close = 1e-9 * (seen.times.back() - seen.times.front()); // but for rounding
     for (auto const knot : knots) {
-        auto const above = std::upper_bound(seen.times.begin(), seen.times.end(), knot + 1e-9);
+        auto const above = std::upper_bound(seen.times.begin(), seen.times.end(), knot + close);
         auto const last = static_cast<std::ptrdiff_t>(seen.times.size()) - 2;
         auto const k = static_cast<std::size_t>(
             std::clamp<std::ptrdiff_t>(above - seen.times.begin() - 1, 0, last));

@@ -94,6 +94,10 @@ public:
             slope_.push_back(
                 along([i](auto const& t, std::size_t k) { return t.input_slopes[k][i]; }));
         }
+        for (auto const& t : traces)
+            // The last piece has what is left.
+            for (std::size_t k = 1; k + 1 < std::max<std::size_t>(t.times.size(), 3); ++k)
+                if (k < t.times.size()) step_ = std::max(step_, t.times[k] - t.times[k - 1]);
     }
 
     /// For a missing rate.
@@ -225,9 +229,14 @@ private:
         }
         if (alone) transients("", g, laws);
     }
+    /// What fades within half a step of the knots to some steps: quicker it is not seen, and slower
+    /// it is no transient.
     void transients(std::string const& name, array const& f, std::vector<law>& laws) const {
-        for (double const tau : {0.1, 0.25, 0.6})
+        for (double const steps : {0.5, 1.25, 3.0}) {
+            double const tau = rounded_to(steps * step_, 2);
+            if (!(tau > 0)) continue;
             add(laws, product(name, "exp(-t/" + nearest_text(tau, 6) + ")"), f * (-t_ / tau).exp());
+        }
     }
     /// What an input does beyond a threshold.
     void hinges(std::string const& gain, array const& g, std::size_t j,
@@ -263,7 +272,8 @@ private:
         for (auto const i : same) {
             auto const& name = about_->states[i].name;
             add(laws, "speed*" + name, speed * x_[i], {}, norm + "*" + name);
-            add(laws, name + "/speed", x_[i] / (speed + 0.02));
+            if (largest(speed) > 0) // smooth near rest
+                add(laws, name + "/speed", x_[i] / (speed + 0.05 * largest(speed)));
         }
         for (auto const i : roles_.angles) {
             auto const& name = about_->states[i].name;
@@ -282,6 +292,7 @@ private:
     model_description const* about_;
     law_roles roles_;
     std::vector<Eigen::Index> lengths_; ///< knots of each experiment
+    double step_ = 0;                   ///< longest distance of two knots
     array t_, one_;
     std::vector<array> x_, u_, slope_; ///< states, inputs and the slopes of these
 };

@@ -3,6 +3,7 @@
 #define SIVID_APPROXIMATE_PLACE_DETAIL_MISSING_RATE_HPP
 
 #include <sivid/approximate/fit/detail/approximate_campaign.hpp>
+#include <sivid/model/sampling.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ namespace sivid {
 /// How large a missing rate may well be, per state: spread of the rates along a fit.
 struct missing_rate_scale {
     double size = 1; ///< standard deviation of d
-    double walk = 1; ///< of its change within a second
+    double walk = 1; ///< of its change within a unit of time
 };
 
 /// The quadratic form sum d^2/size^2 + sum (delta d)^2/(walk^2 delta t) of several equations whose
@@ -74,19 +75,34 @@ missing_rate_prior(std::vector<double> const& knots, std::vector<missing_rate_sc
     return r;
 }
 
-/// What a second is to a motion of twenty seconds, and not less [s]: the time in which a missing
-/// rate may change.
+/// The time in which a missing rate may change: ten gaps between samples, or the twentieth part of
+/// a long record.
 [[nodiscard]] inline double rate_time(identification_problem const& problem) {
-    double longest = 0;
-    for (auto const& e : problem.experiments) {
-        for (auto const& m : e.measurements) longest = std::max(longest, m.time - e.begin);
+    return sampling_of(problem.experiments).span(10, 0.05);
+}
+
+/// By how much each state may be off where a channel shows it within its bounds: the finest of
+/// these over the channel's slope; of others the finest of states in their unit, then a millionth
+/// of what they may be.
+[[nodiscard]] inline std::vector<double> errors_of_states(approximate_campaign const& c) {
+    auto const& states = c.problem().model.about.states;
+    std::vector<double> shown(states.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t e = 0; e < c.experiments(); ++e) {
+        auto const own = c.shown_within(e);
+        for (std::size_t i = 0; i < own.size(); ++i) shown[i] = std::min(shown[i], own[i]);
     }
-    return std::max(1.0, longest / 20);
+    auto result = shown;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        for (std::size_t j = 0; j < shown.size() && !std::isfinite(shown[i]); ++j)
+            if (states[j].unit == states[i].unit) result[i] = std::min(result[i], shown[j]);
+        if (!std::isfinite(result[i])) result[i] = 1e-6 * states[i].limit;
+    }
+    return result;
 }
 
 /// Of states, then of inputs. Typical sizes of the rates along a motion: four times their root mean
-/// square. An equation that rests is as uncertain as the others of its unit, or as its errors
-/// within `rate_time`.
+/// square. An equation that rests is as uncertain as the others of its unit, or as the errors of
+/// its state within `rate_time`.
 [[nodiscard]] inline std::vector<missing_rate_scale> missing_rate_scales(approximate_campaign& c,
                                                                          arrow_vector const& z) {
     auto const& about = c.problem().model.about;
@@ -101,11 +117,9 @@ missing_rate_prior(std::vector<double> const& knots, std::vector<missing_rate_sc
         }
     }
     std::vector<missing_rate_scale> scales;
-    double const time = rate_time(c.problem());
-    double error = std::numeric_limits<double>::infinity();
-    for (std::size_t e = 0; e < c.experiments(); ++e) {
-        for (double const r : c.radii(e)) error = std::min(error, r);
-    }
+    double time = rate_time(c.problem());
+    if (!(time > 0)) time = 1; // all is measured at the begin: no rate acts
+    auto const error = errors_of_states(c);
     for (std::size_t i = 0; i < squares.size(); ++i) {
         double largest = squares[i];
         for (std::size_t j = 0; j < squares.size(); ++j) {
@@ -114,7 +128,7 @@ missing_rate_prior(std::vector<double> const& knots, std::vector<missing_rate_sc
         }
         double const own = std::sqrt(squares[i] / std::max(count, 1.0));
         double const unit = std::sqrt(largest / std::max(count, 1.0));
-        double const size = std::max({4 * own, 2 * unit, 20 * error / time});
+        double const size = std::max({4 * own, 2 * unit, 20 * error[i] / time});
         scales.push_back({size, 2.0 / 3 * size / std::sqrt(time)});
     }
     for (std::size_t i = 0; i < about.inputs.size(); ++i) {

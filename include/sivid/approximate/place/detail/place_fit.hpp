@@ -7,6 +7,7 @@
 #include <sivid/approximate/fit/detail/suspect_samples.hpp>
 #include <sivid/approximate/place/detail/missing_rate.hpp>
 #include <sivid/approximate/place/detail/sensor_model.hpp>
+#include <sivid/model/sampling.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -182,12 +183,11 @@ public:
     }
 
 private:
+    /// Six gaps between samples, or a sixteenth of a long record: a sensor that is later than that
+    /// is better found by an effect of the catalogue. A quarter of a short one.
     [[nodiscard]] static double longest_delay(identification_problem const& problem) {
-        double longest = 0;
-        for (auto const& e : problem.experiments) {
-            for (auto const& m : e.measurements) longest = std::max(longest, m.time - e.begin);
-        }
-        return std::min(0.6, 0.25 * longest);
+        auto const seen = sampling_of(problem.experiments);
+        return std::min(seen.span(6, 1.0 / 16), 0.25 * seen.record);
     }
     [[nodiscard]] static std::vector<std::vector<double>>
     knots_of(identification_problem const& problem) {
@@ -214,9 +214,8 @@ private:
     /// Ranges of the variables; of missing rates, their scale.
     [[nodiscard]] arrow_vector units() const {
         auto unit = campaign_.upper();
-        unit.for_each(
-            [](double& u, double lo) { u = std::isfinite(lo) ? std::max(u - lo, 1e-12) : 0; },
-            campaign_.lower());
+        unit.for_each([](double& u, double lo) { u = std::isfinite(lo) ? u - lo : 0; },
+                      campaign_.lower());
         for (std::size_t e = 0; e < campaign_.experiments(); ++e) {
             auto at = static_cast<Eigen::Index>(campaign_.free_starts(e));
             for (std::size_t k = 0; k < campaign_.knots(e).size(); ++k) {

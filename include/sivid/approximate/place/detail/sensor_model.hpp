@@ -84,7 +84,7 @@ struct sensor_problem {
             delay = add(fault + " latency", "s", interval(0.0, longest_delay));
         }
         for (auto const k : places[p].members) {
-            double const range = std::max(high[k] - low[k], 1e-9);
+            double const range = high[k] > low[k] ? high[k] - low[k] : std::abs(high[k]);
             result.faults[p].push_back(sides.size());
             auto const offset = g.leaf(operation::constant,
                                        add(fault + " offset " + model.about.channels[k].name,

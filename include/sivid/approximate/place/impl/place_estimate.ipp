@@ -187,10 +187,8 @@ private:
                     double const y = fit.simulations().centres(e)[k];
                     low = std::min(low, y);
                     high = std::max(high, y);
-                    if (any) {
-                        steep = std::max(steep, std::abs(y - before) /
-                                                    std::max(requests[k].time - since, 1e-12));
-                    }
+                    if (any && requests[k].time > since)
+                        steep = std::max(steep, std::abs(y - before) / (requests[k].time - since));
                     any = true;
                     before = y;
                     since = requests[k].time;

@@ -145,6 +145,7 @@ private:
     [[nodiscard]] std::optional<box> sweep(double from, double to, box const& at_start,
                                            box const& at_end, int pieces) {
         auto const n = flow_->states();
+        constexpr double least = 1e-290; // what rests at 0 is held strictly, in any unit
         std::optional<box> all;
         auto x = at_start;
         double begin = from;
@@ -157,7 +158,7 @@ private:
             interval const since = traits::bounds(0.0, length.upper());
             auto b = pieces == 1 ? hull(x, at_end) : x;
             for (std::size_t i = 0; i < n; ++i)
-                b[i] = wider(b[i], 0.1 * width(b[i]) + 1e-9 * (1 + mag(b[i])));
+                b[i] = wider(b[i], 0.1 * width(b[i]) + 1e-9 * mag(b[i]) + least);
             bool proved = false;
             for (int round = 0; round < 12 && !proved; ++round) {
                 if (!rates(times, b, inputs)) return std::nullopt;
@@ -175,7 +176,7 @@ private:
                 } else {
                     auto const more = hull(b, image);
                     for (std::size_t i = 0; i < n; ++i)
-                        b[i] = wider(more[i], 0.2 * width(image[i]) + 1e-9 * (1 + mag(image[i])));
+                        b[i] = wider(more[i], 0.2 * width(image[i]) + 1e-9 * mag(image[i]) + least);
                 }
             }
             if (!proved || (k < pieces && !rates(times, b, inputs))) return std::nullopt;

@@ -21,10 +21,12 @@ namespace sivid {
 
 namespace diagnosis_detail {
 
-/// 1, 2 or 5 times a power of ten, no less than x, as a decimal from 1e-9 to 5e8; else nothing.
+/// 1, 2 or 5 times a power of ten, no less than x, as a decimal without exponent; nothing for 0,
+/// and for what is not finite.
 inline std::string round_size(double x) {
-    if (!(x > 0)) return {};
-    for (int power = -9; power < 9; ++power) {
+    if (!(x > 0) || !std::isfinite(x)) return {};
+    int const about = static_cast<int>(std::floor(std::log10(x)));
+    for (int power = about - 1; power < about + 2; ++power) {
         for (int const digit : {1, 2, 5}) {
             if (static_cast<double>(digit) * std::pow(10.0, power) < x * (1 - 1e-9)) continue;
             auto const zeros = static_cast<std::size_t>(std::abs(power));

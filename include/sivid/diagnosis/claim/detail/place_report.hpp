@@ -72,20 +72,26 @@ namespace sivid {
     return std::nullopt;
 }
 
+/// Sums of sampling periods lose their last digits: times to a billionth of what they are apart.
+[[nodiscard]] inline time_window shown_window(std::string scenario, double from, double to) {
+    if (!(to > from)) return {std::move(scenario), from, to};
+    double const digits = std::pow(10, 9 - std::floor(std::log10(to - from)));
+    auto const shown = [digits](double t) { return std::round(t * digits) / digits; };
+    return {std::move(scenario), shown(from), shown(to)};
+}
+
 /// An estimated place; where its equation is proved to be what is wrong, with the proof's window,
 /// and its missing rate there.
 ///   A rate in which no constant acts is a definition, and its sensors are what is wrong: the one
 ///   of its own state is named, the others of the row beside it.
 [[nodiscard]] inline suspected_place reported(estimated_place const& p,
                                               std::vector<relation_finding> const& findings = {}) {
-    // Sums of sampling periods lose their last digits.
-    auto const shown_time = [](double t) { return std::round(t * 1e9) / 1e9; };
     suspected_place s;
     s.kind = p.kind == place_kind::sensor  ? "sensor"
              : p.kind == place_kind::input ? "input"
                                            : "equation";
     s.name = p.name;
-    s.where = {p.scenario, shown_time(p.from), shown_time(p.to)};
+    s.where = shown_window(p.scenario, p.from, p.to);
     if (p.kind == place_kind::kinematic && !p.sensors.empty()) {
         s.kind = "sensor";
         s.name = p.sensors.front();
@@ -105,7 +111,7 @@ namespace sivid {
         if (!f.place->missing || contains(f.place->missing->value, 0)) return s;
         auto const& [window, value, unit] = *f.place->missing;
         s.missing = value;
-        s.where = {window.scenario, shown_time(window.from), shown_time(window.to)};
+        s.where = shown_window(window.scenario, window.from, window.to);
         s.estimate = mean_missing(p, window);
         // What lies outside is known to be wrong.
         if (s.estimate) s.estimate = std::clamp(*s.estimate, value.lower(), value.upper());

@@ -4,6 +4,7 @@
 
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/sampling.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 #include <sivid/paving/relation/detail/relation_windows.hpp>
@@ -29,8 +30,10 @@ struct sensor_fault_ranges {
     double scale = 0.1;   ///< |s|
     double offset = 0.1;  ///< |b| and |d t|, each as a share of what its bounded readings span
     double mixing = 0.12; ///< |c| within one unit: 0.12 rad askew
-    double arm = 0.1;     ///< |c| of a lever arm [m]
-    double latency = 0.2; ///< most delay [s]
+    double arm = 0.03;    ///< what a lever arm adds, as a share of what its readings span
+    /// Most delay, in the model's unit of time; none: two gaps between samples, or a fiftieth of a
+    /// long record.
+    std::optional<double> latency{};
     std::size_t most_slices = 40; ///< pieces that the delay is cut into
 };
 
@@ -61,6 +64,20 @@ inline unit without_angle(std::string const& text) {
     }
     return result;
 }
+/// Whether it is one of a length alone.
+inline bool is_length(unit const& u) {
+    auto const text = u.text();
+    auto const known = {"m", "um", "mm", "cm", "km"};
+    return std::find(known.begin(), known.end(), text) != known.end();
+}
+/// What the bounded readings of a channel span.
+inline interval readings_of(identification_problem const& problem, std::size_t channel) {
+    auto result = interval_traits<interval>::empty();
+    for (auto const& e : problem.experiments)
+        for (auto const& m : e.measurements)
+            if (m.channel == channel && is_bounded(m.bound)) result = hull(result, m.bound);
+    return result;
+}
 
 } // namespace diagnosis_detail
 
@@ -72,19 +89,22 @@ faults_of(identification_problem const& problem,
           sensor_fault_ranges const& ranges) {
     auto const& about = problem.model.about;
     auto const within = [](double most) { return interval(-most, most); };
-    faulty_channel result{state, *channels[state], within(ranges.scale), {}, {},
-                          {},    ranges.latency};
-    double low = HUGE_VAL, high = -HUGE_VAL, longest = 0, latest = 0;
+    double const latency =
+        ranges.latency ? *ranges.latency : sampling_of(problem.experiments).span(2, 0.02);
+    faulty_channel result{state, *channels[state], within(ranges.scale), {}, {}, {}, latency};
+    auto const span = [&](std::size_t channel) {
+        auto const all = diagnosis_detail::readings_of(problem, channel);
+        return is_empty(all) ? 0 : width(all);
+    };
+    double longest = 0, latest = 0;
     for (auto const& e : problem.experiments) {
         for (auto const& m : e.measurements) {
             if (m.channel != result.channel || !is_bounded(m.bound)) continue;
-            low = std::min(low, m.bound.lower());
-            high = std::max(high, m.bound.upper());
             longest = std::max(longest, m.time - e.begin);
             latest = std::max(latest, std::abs(e.begin));
         }
     }
-    double const most = ranges.offset * std::max(high - low, 0.0);
+    double const most = ranges.offset * span(result.channel);
     double const drift = longest > 0 ? most / longest : 0;
     result.drift = within(drift);
     result.offset = within(most + drift * latest); // the drift counts from the begin
@@ -94,8 +114,9 @@ faults_of(identification_problem const& problem,
         auto const other = diagnosis_detail::without_angle(about.channels[*channels[m]].unit);
         if (about.channels[*channels[m]].unit == about.channels[result.channel].unit) {
             result.mixing.emplace_back(m, within(ranges.mixing));
-        } else if (own == other.times(unit("m"), 1)) {
-            result.mixing.emplace_back(m, within(ranges.arm));
+        } else if (diagnosis_detail::is_length(own.times(other, -1)) && span(*channels[m]) > 0) {
+            double const arm = ranges.arm * span(result.channel) / span(*channels[m]);
+            result.mixing.emplace_back(m, within(arm));
         }
     }
     return result;
@@ -212,14 +233,14 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
 delay_slices(identification_problem const& problem, faulty_channel const& f,
              std::size_t most_slices) {
     if (!(f.latency > 0)) return {{0.0}, 0.0};
-    // As long as the channel takes to move by its error where it is fast.
+    // As long as the channel takes to move by its error where it is fast. Where it rests, any.
     std::vector<double> lengths;
     for (auto const& e : problem.experiments) {
         auto const s = state_samples::sensed(e, f.channel).bounded();
         for (std::size_t k = 0; k + 1 < s.times.size(); ++k) {
             double const rate =
                 mag((s.bounds[k + 1] - s.bounds[k])) / (s.times[k + 1] - s.times[k]);
-            lengths.push_back(rad(s.bounds[k]) / std::max(rate, 1e-12));
+            if (rate > 0) lengths.push_back(rad(s.bounds[k]) / rate);
         }
     }
     double length = f.latency;

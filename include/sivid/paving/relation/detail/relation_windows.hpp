@@ -14,6 +14,7 @@
 #include <sivid/paving/relation/detail/weak_windows.hpp>
 #include <sivid/paving/relation/detail/window_integrals.hpp>
 #include <sivid/paving/relation/relation_finding.hpp>
+#include <sivid/paving/relation/state_samples.hpp>
 #include <sivid/paving/relation/time_cell.hpp>
 
 #include <algorithm>
@@ -130,17 +131,15 @@ public:
         return result;
     }
 
-    /// All windows between the shortest and the longest; of too many every so many.
+    /// All windows that are not shorter than the shortest; of too many every so many.
     [[nodiscard]] std::vector<window_row> all(std::size_t i, window_way way) {
-        double const shortest = options_.shortest, longest = options_.longest;
         std::vector<window_row> result;
         if (is_stated(way))
-            return stated_.windows(i, way == window_way::stated_middle, motions_, shortest, longest,
-                                   options_.go_on);
+            return stated_.windows(i, way == window_way::stated_middle, motions_, options_);
         if (way == window_way::weak) {
             auto const weak = weak_form(i);
             for (std::size_t m = 0; weak && m < motions_.size(); ++m) {
-                auto more = weak->over(motions_[m], m, shortest, longest, options_.go_on);
+                auto more = weak->over(motions_[m], m, options_);
                 std::move(more.begin(), more.end(), std::back_inserter(result));
             }
             return result;
@@ -152,13 +151,17 @@ public:
             for (std::size_t m = 0; m < motions_.size(); ++m) {
                 if (!own_tube(e.row, motions_[m])) continue;
                 auto const& times = own_tube(e.row, motions_[m])->times();
+                auto const seen = state_samples{times, {}}.seen();
+                double const shortest =
+                    seen.span(options_.shortest_gaps, options_.shortest_share) * (1 - 1e-9);
+                std::size_t ends = 0; // of so many samples windows that end at b may begin
                 for (std::size_t b = 1; b < times.size() && !stopped(); ++b) {
-                    for (std::size_t a = b; a-- > 0;) {
-                        double const length = times[b] - times[a];
-                        if (length > longest * (1 + 1e-9)) break;
-                        if (length < shortest * (1 - 1e-9) || ++count % stride != 0) continue;
-                        if (pass == 0) continue;
-                        auto found = row_over(e, way, m, times[a], times[b]);
+                    while (ends < b && times[b] - times[ends] >= shortest) ++ends;
+                    auto const before = count;
+                    count += ends;
+                    if (pass == 0) continue;
+                    for (auto n = (before / stride + 1) * stride; n <= count; n += stride) {
+                        auto found = row_over(e, way, m, times[ends - (n - before)], times[b]);
                         if (found) result.push_back(*std::move(found));
                     }
                 }
@@ -311,8 +314,12 @@ private:
         if (!e.integrals.empty()) return e;
         std::vector<derivative_pair> pairs;
         if (e.row.centre.empty()) pairs = pairs_of(e.row.equation);
-        for (auto const& m : motions_)
-            e.integrals.emplace_back(e.set, m.cells, pairs, e.row.growth);
+        for (auto const& m : motions_) {
+            // Slow beside the gaps, over which nothing is known, and quick beside the record.
+            auto const& own = m.tubes[e.row.equation];
+            double const slow = own ? state_samples{own->times(), {}}.seen().span(5, 0.025) : 0;
+            e.integrals.emplace_back(e.set, m.cells, pairs, e.row.growth, slow);
+        }
         return e;
     }
     [[nodiscard]] std::optional<window_row> row_over(prepared_equation const& e, window_way way,

@@ -10,11 +10,11 @@
 #include <sivid/paving/relation/detail/relation_row.hpp>
 #include <sivid/paving/relation/detail/weak_equation.hpp>
 #include <sivid/paving/relation/integrand_set.hpp>
+#include <sivid/paving/relation/relation_finding.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -88,14 +88,13 @@ public:
     /// @given  `pair_of(i)`, and always the same motions and lengths
     [[nodiscard]] std::vector<window_row> windows(std::size_t i, bool middle,
                                                   std::vector<observed_motion> const& motions,
-                                                  double shortest, double longest,
-                                                  std::function<bool()> const& go_on) {
+                                                  relation_options const& options) {
         auto& e = at(i);
         for (std::size_t m = 0; !e.asked && e.plain.bounded && m < motions.size(); ++m) {
             if (rates_.size() == m) rates_.push_back(rates_along(*model_, motions[m]));
             parted_functions const parted(e.set, e.middle.centre, motions[m], rates_[m],
                                           pair_of(i)->q, unseen_);
-            auto more = weak_equation(parted).over(m, shortest, longest, go_on);
+            auto more = weak_equation(parted).over(m, options);
             std::move(more.begin(), more.end(), std::back_inserter(e.windows));
         }
         e.asked = true;

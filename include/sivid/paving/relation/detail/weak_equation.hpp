@@ -4,11 +4,12 @@
 
 #include <sivid/paving/relation/detail/parted_functions.hpp>
 #include <sivid/paving/relation/detail/relation_row.hpp>
+#include <sivid/paving/relation/relation_finding.hpp>
+#include <sivid/paving/relation/state_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -32,11 +33,12 @@ public:
         : functions_(&functions), times_(functions.times()) {}
 
     /// Windows under bumps, and, where starts are known, such that begin with the motion. Of some
-    /// lengths between `shortest` and `longest`; of shorter ones where the record is not eight
-    /// times as long as the shortest, and of longer ones where its gaps are.
-    /// @param go_on  false ends with those found by then; may be empty
-    [[nodiscard]] std::vector<window_row> over(std::size_t index, double shortest, double longest,
-                                               std::function<bool()> const& go_on = {}) const {
+    /// lengths from `options.shortest_gaps` to the record; of shorter ones where that is not eight
+    /// times as long as the shortest.
+    /// @param options  whose `go_on` ends with those found by then where it is false
+    [[nodiscard]] std::vector<window_row> over(std::size_t index,
+                                               relation_options const& options) const {
+        auto const& go_on = options.go_on;
         std::vector<window_row> result;
         if (times_.size() < 3) return result; // a window spans two gaps at least
         auto const add = [&](std::size_t a, std::size_t b, auto const& weight) {
@@ -61,10 +63,11 @@ public:
         double least_gap = all;
         for (std::size_t k = 0; k + 1 < times_.size(); ++k)
             least_gap = std::min(least_gap, times_[k + 1] - times_[k]);
-        double length = shortest;
+        state_samples const samples{times_, {}};
+        double length = samples.seen().span(options.shortest_gaps, options.shortest_share);
         while (8 * length > all) length /= 1.3;
         while (length < least_gap) length *= 1.3;
-        longest = std::min(std::max(1.0, length / shortest) * longest, all) * (1 + 1e-9);
+        double const longest = all * (1 + 1e-9);
         for (; length <= longest; length *= 1.3) {
             double const step = length / 6;
             double from = times_.front();

@@ -7,11 +7,12 @@
 #include <sivid/paving/relation/detail/observed_motion.hpp>
 #include <sivid/paving/relation/detail/relation_row.hpp>
 #include <sivid/paving/relation/integrand_set.hpp>
+#include <sivid/paving/relation/relation_finding.hpp>
+#include <sivid/paving/relation/state_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -107,12 +108,12 @@ public:
         return result;
     }
 
-    /// All windows of some lengths between `shortest` and `longest` on a grid of starts.
-    /// @param go_on  false ends with those found by then; may be empty
+    /// All windows of some lengths, from the shortest of the options to the record, on a grid of
+    /// starts.
+    /// @param options  whose `go_on` ends with those found by then where it is false
     /// @cost  O(cells) for each window
     [[nodiscard]] std::vector<window_row> over(observed_motion const& motion, std::size_t index,
-                                               double shortest, double longest,
-                                               std::function<bool()> const& go_on = {}) const {
+                                               relation_options const& options) const {
         std::vector<window_row> result;
         auto const& tube = motion.sensed[own_.q];
         if (!tube || motion.cells.empty()) return result;
@@ -120,12 +121,13 @@ public:
         auto const lines = lines_along(motion);
         auto const& times = tube->times();
         double const all = times.back() - times.front();
-        for (double length = shortest; length <= std::min(longest, all) * (1 + 1e-9);
-             length *= 1.25) {
+        state_samples const samples{times, {}};
+        double length = samples.seen().span(options.shortest_gaps, options.shortest_share);
+        for (; length > 0 && length <= all * (1 + 1e-9); length *= 1.25) {
             double next = times.front();
             for (std::size_t a = 0; a < times.size(); ++a) {
                 if (times[a] < next) continue;
-                if (go_on && !go_on()) return result;
+                if (options.go_on && !options.go_on()) return result;
                 auto const at =
                     std::lower_bound(times.begin(), times.end(), times[a] + length * (1 - 1e-9));
                 if (at == times.end()) break;

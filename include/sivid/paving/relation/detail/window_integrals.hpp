@@ -32,10 +32,9 @@ public:
     /// @param cells   adjacent, in the order of time
     /// @param pairs   one for each r; none where the integrals are weighted
     /// @param growth  a: every integrand is multiplied by \f$ e^{a (t - t_{end})} \f$ [1/s]
-    /// @param slow    the time over which g is straight [s]
+    /// @param slow    the time over which g is straight; 0: all that the cells span
     window_integrals(integrand_set const& set, std::vector<time_cell> const& cells,
-                     std::vector<derivative_pair> const& pairs, double growth = 0,
-                     double slow = 0.5)
+                     std::vector<derivative_pair> const& pairs, double growth = 0, double slow = 0)
         : pairs_(pairs) {
         auto const count = set.functions.size();
         auto const n = cells.size();
@@ -138,7 +137,8 @@ private:
         if (cells.empty()) return {0.0};
         double const from = cells.front().from;
         double const length = cells.back().to - from;
-        auto const knots = static_cast<std::size_t>(std::max(1.0, std::ceil(length / slow))) + 1;
+        auto const pieces = slow > 0 ? std::max(1.0, std::ceil(length / slow * (1 - 1e-9))) : 1;
+        auto const knots = static_cast<std::size_t>(pieces) + 1;
         double const step = length / static_cast<double>(knots - 1);
         std::vector<double> sum(knots, 0.0), share(knots, 1e-300);
         for (std::size_t c = 0; c < cells.size(); ++c) {
