@@ -65,7 +65,7 @@ public:
         sivid::enclosure_options options;
         // A tube that needs shorter steps than a share of the duration gets no further.
         options.maximum_step = s.duration / 300;
-        options.minimum_step = 1e-5 * std::max(1.0, s.duration);
+        options.minimum_step = 1e-5;
         options.method = method_of(c.how);
         auto const tube = enclosed(c.how, flow_, start, s.duration, options);
         spans_ = tube.spans();

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The unit of time of a model is the user's: microseconds or days, the same data leave the same
-// set.
+// The units of a model are the user's: microseconds or days, microns or kilometres, the same data
+// leave the same set after the same work.
 #include <sivid/paving/identify.hpp>
 
 #include "support/catch.hpp"
+#include "support/oscillator_in_units.hpp"
 
+#include <sivid/paving/online_identification.hpp>
+
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 using namespace sivid;
@@ -31,7 +37,7 @@ struct growth {
 };
 
 /// x'' = u - k x - d x'
-struct oscillator {
+struct plain_oscillator {
     static constexpr auto name = "oscillator";
     static constexpr auto states = sivid::states({{"x", "1", 10}, {"v", "1", 1e5}});
     static constexpr auto inputs = sivid::inputs({{"u", "1"}});
@@ -54,7 +60,118 @@ identify_options hulls_alone() {
     return options;
 }
 
+using support::in_units::scalings;
+using support::in_units::units;
+using support::in_units::units_of_time;
+
+/// The oscillator, with dry friction in the data and in the model where that is asked for.
+identification_problem posed_in(units const& in, bool friction,
+                                support::in_units::sizes const& of) {
+    if (!friction) return support::in_units::problem_in(in, {}, of);
+    auto p = support::in_units::problem_in(in, {.friction = 0.35}, of);
+    for (auto const& e : support::in_units::catalogue_in(in)) {
+        if (e.name != "friction") continue;
+        p.model = with(p.model, {e});
+        p.choice.unknown.push_back("friction." + e.parameters[0].name);
+        std::vector<interval> sides(p.prior.begin(), p.prior.end());
+        sides.emplace_back(0.0, in.acceleration());
+        p.prior = box(sides);
+    }
+    return p;
+}
+/// The sides of a box of its parameters, in base units.
+std::vector<interval> in_base(box const& x, units const& in) {
+    std::vector<double> const unit{in.acceleration() / in.input, 1 / (in.time * in.time),
+                                   1 / in.time, in.acceleration()};
+    std::vector<interval> result;
+    for (std::size_t j = 0; j < x.size(); ++j)
+        result.emplace_back(x[j].lower() / unit[j], x[j].upper() / unit[j]);
+    return result;
+}
+
+struct work {
+    std::string verdict;
+    std::size_t boxes = 0, integrations = 0;
+    std::vector<interval> hull;
+};
+
+/// Budgets that the machine's speed has no say in.
+work identified(units const& in, bool friction, std::size_t boxes,
+                support::in_units::sizes const& of) {
+    identify_options options;
+    options.search.seconds = 1e9;
+    options.search.boxes = boxes;
+    auto const found = identify(posed_in(in, friction, of), options);
+    return {std::string(to_string(found.verdict)), found.effort ? found.effort->boxes : 0,
+            found.integrations, in_base(found.hull, in)};
+}
+work identified_online(units const& in, support::in_units::sizes const& of) {
+    auto problem = posed_in(in, false, of);
+    auto const samples = problem.experiments.front().measurements;
+    problem.experiments.front().measurements.clear();
+    online_options options;
+    options.refinement.boxes = 40;
+    options.refinement.live = 16;
+    options.refinement.seconds = 1e9;
+    online_identification online(problem, options);
+    work result;
+    for (auto const& m : samples) {
+        auto const& update = online.add({0, m});
+        result.boxes += update.judged;
+        result.integrations += update.integrations;
+    }
+    result.verdict = to_string(online.last().verdict);
+    result.hull = in_base(online.last().hull, in);
+    return result;
+}
+
+bool alike(std::size_t a, std::size_t b) {
+    auto const more = std::max(a, b), less = std::min(a, b);
+    return more - less <= std::max<std::size_t>(2, more / 10);
+}
+
+/// @param find  (units) -> work
+template <class Find>
+void compare(std::vector<units> const& all, Find const& find) {
+    auto const base = find(units{});
+    for (auto const& in : all) {
+        CAPTURE(in.name, in.state, in.input);
+        auto const found = find(in);
+        CHECK(found.verdict == base.verdict);
+        CHECK(alike(found.boxes, base.boxes));
+        CHECK(alike(found.integrations, base.integrations));
+        for (std::size_t j = 0; j < base.hull.size(); ++j)
+            CHECK(std::abs(width(found.hull[j]) - width(base.hull[j])) <=
+                  0.01 * width(base.hull[j]));
+    }
+}
+std::vector<units> few() {
+    return {{0x1p-12, 1, 1, "2^12 s"}, {1e3, 1, 1, "ms"}, {1.0 / 3600, 1e6, 1e-3, "h"}};
+}
+std::vector<units> many() {
+    std::vector<units> all(units_of_time.begin(), units_of_time.end());
+    for (double const size : scalings) {
+        all.push_back({1, size, 1, "s"});
+        all.push_back({1, 1, size, "s"});
+        all.push_back({1e3, size, 1 / size, "ms"});
+        all.push_back({1.0 / 86400, size, size, "d"});
+    }
+    return all;
+}
+
 } // namespace
+
+TEST_CASE("the same data leave the same set after the same work, in any units") {
+    compare(few(), [](units const& in) { return identified(in, false, 200, {4, 40}); });
+    compare(few(), [](units const& in) { return identified(in, true, 40, {4, 40}); });
+    compare(few(), [](units const& in) { return identified_online(in, {2, 20}); });
+}
+
+TEST_CASE("identification is the same in all units", "[.long]") {
+    compare(many(), [](units const& in) { return identified(in, false, 1000, {20, 200}); });
+    compare(many(), [](units const& in) { return identified(in, true, 200, {10, 100}); });
+    compare(many(), [](units const& in) { return identified_online(in, {5, 50}); });
+}
 
 TEST_CASE("a model may count in any unit of time") {
     double const r = 1.1, K = 0.9, x0 = 0.1;
@@ -106,7 +223,7 @@ TEST_CASE("records of milliseconds and of hours with inputs are carried as those
         box const prior{interval(3.2 / (unit * unit), 4.8 / (unit * unit)),
                         interval(0.2 / unit, 0.4 / unit)};
         auto const found =
-            identify({record_model<oscillator>(), {{"k", "d"}, {}}, prior, {e}}, hulls_alone());
+            identify({record_model<plain_oscillator>(), {{"k", "d"}, {}}, prior, {e}}, hulls_alone());
         CAPTURE(unit);
         CHECK(found.verdict == verdict::consistent);
         CHECK(contains(found.hull[0], k / (unit * unit)));

@@ -27,8 +27,9 @@ struct prediction {
     double reached = 0;                  ///< instants up to here are bounded; time
     bool complete = false;               ///< every instant of the scenario is bounded
     /// The tubes at the instants are at most this much wider, as a share, than what the parameters
-    /// and starts of the problem reach themselves; widths below a millionth do not count. Infinite
-    /// where it is not known what they reach (`prediction_problem::reached`).
+    /// and starts of the problem reach themselves; widths below a millionth of the largest value of
+    /// a tube do not count. Infinite where it is not known what they reach
+    /// (`prediction_problem::reached`).
     double excess = std::numeric_limits<double>::infinity();
     std::size_t parts = 0, integrations = 0;
     double seconds = 0;

@@ -50,6 +50,11 @@ public:
     [[nodiscard]] std::vector<jacobian_entry> const& observe_entries() const {
         return observe_entries_;
     }
+    /// A millionth of the state's own range: what is smaller counts as so large, for tolerances.
+    [[nodiscard]] double small(std::size_t i) const {
+        double const limit = model_.about.states[i].limit;
+        return limit < 1e100 ? 1e-6 * limit : 1; // else it is no range, and no scale is known
+    }
     /// Whether \f$ \partial x_i(t) / \partial (x_0, p)_c \f$ can be non-zero.
     [[nodiscard]] bool sensitive(std::size_t i, std::size_t c) const {
         return sensitive_[i * (states() + parameters()) + c];

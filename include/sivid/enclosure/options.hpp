@@ -28,15 +28,17 @@ struct enclosure_options {
     /// A Runge-Kutta method for the centre trajectory instead of the Taylor series.
     std::optional<tableau> method = std::nullopt;
     /// Largest truncation error of one step in state i, as a half-width:
-    /// tolerance * (1 + |x_i|) + relative_tolerance * width of the enclosure of x_i.
+    /// tolerance * (size of x_i) + relative_tolerance * width of the enclosure of x_i, where the
+    /// size is the largest |x_i| so far, or a millionth of the state's own range if that is more.
     double tolerance = 1e-13;
     double relative_tolerance = 1e-4;
-    /// Steps are never shorter than this share of the span (or of one unit of time, where the span
-    /// is longer), except where an input's knot or the end is closer, or a kink is crossed.
-    double minimum_step = 1e-7;
-    /// Steps are never longer [the model's unit of time]; nothing: than a hundredth of the span, or
-    /// one unit if that is longer. So a model may count in microseconds or days.
+    /// Steps are never shorter than this share of the span, except where an input's knot or the end
+    /// is closer, or a kink is crossed.
+    double minimum_step = 1e-8;
+    /// Steps are never longer [the model's unit of time]; nothing: than the span.
     std::optional<double> maximum_step = std::nullopt;
+    /// The time of which lengths of steps are shares [the model's unit of time]: see `for_span`.
+    double span = 1;
     std::size_t maximum_steps = 1'000'000;
     /// Give up when the enclosure of a state is wider than this many times the state's own range.
     double widest = 2.0;
@@ -48,15 +50,14 @@ struct enclosure_options {
     std::function<bool()> keep_going = nullptr;
 
     [[nodiscard]] bool cancelled() const { return keep_going && !keep_going(); }
-    [[nodiscard]] double longest_step() const { return maximum_step.value_or(1.0); }
+    [[nodiscard]] double shortest_step() const { return minimum_step * span; }
+    [[nodiscard]] double longest_step() const { return maximum_step.value_or(span); }
 };
 
-/// The options with the steps of a span in units of time, for what does not know the span: engines
-/// take `minimum_step` as it is, and steps of at most one unit where none is asked for.
-/// @param span  in the unit of time of the model
+/// The options for a span: a model may count in microseconds or in days.
+/// @param span  in the unit of time of the model; 0, where there is nothing to do, changes nothing
 [[nodiscard]] inline enclosure_options for_span(enclosure_options options, double span) {
-    if (span > 0) options.minimum_step *= std::min(1.0, span);
-    if (!options.maximum_step) options.maximum_step = std::max(1.0, span / 100);
+    if (span > 0) options.span = span;
     return options;
 }
 
@@ -66,7 +67,7 @@ struct enclosure_options {
     if (!options.method) return options;
     double const order = static_cast<double>(options.method->order);
     options.tolerance = std::max(options.tolerance, std::pow(10.0, -2 - 2 * order));
-    options.minimum_step = std::min(options.minimum_step, 1e-5);
+    options.minimum_step = std::min(options.minimum_step, 1e-6);
     return options;
 }
 

@@ -99,7 +99,7 @@ private:
 template <interval_scalar I = interval>
 [[nodiscard]] inversion identify_by_bisection(
     identification_problem const& problem, inversion_options search = {},
-    enclosure_options enclosure = {.order = 12, .tolerance = 1e-7, .minimum_step = 1e-3}) {
+    enclosure_options enclosure = {.order = 12, .tolerance = 1e-7, .minimum_step = 1e-4}) {
     work_limit const limit(search.seconds, search.keep_going);
     enclosure.keep_going = limit;
     search.order = search_order::first_in;

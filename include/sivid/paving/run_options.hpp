@@ -26,7 +26,7 @@ using run_maker = std::unique_ptr<experiment_run> (*)(flow const&, experiment co
 struct run_options : enclosure_options {
     run_options()
         : enclosure_options{
-              .order = 12, .tolerance = 1e-7, .relative_tolerance = 1e-4, .minimum_step = 1e-3} {}
+              .order = 12, .tolerance = 1e-7, .relative_tolerance = 1e-4, .minimum_step = 1e-4} {}
     explicit run_options(enclosure_options const& steps) : enclosure_options(steps) {}
 
     carried_set set = carried_set::taylor_model;

@@ -27,7 +27,9 @@ std::shared_ptr<flow const> free_flow(std::size_t n, Rate const& rate) {
 
 bool prove(perturbed_step<interval>& step, double h, box const& tube) {
     step.set_parameters(box{});
-    return step.prove(0, h, between(0, h), tube, true);
+    std::vector<double> sizes;
+    for (auto const& x : tube) sizes.push_back(mag(x));
+    return step.prove(0, h, between(0, h), tube, sizes, true);
 }
 
 } // namespace
@@ -69,6 +71,25 @@ TEST_CASE("an oscillation is not taken for growth") {
     double const speed = 0.1 / 3 * (2 - std::sin(3.0));
     CHECK(step.at_end()[1] >= speed);
     CHECK(step.at_end()[1] <= 1.1 * speed);
+}
+
+TEST_CASE("a bound of a perturbation does not hang on the units of time and states") {
+    // x'' = -9 x + w, x in 2^-k m and the time in 2^-m s.
+    for (double const length : {1.0, 0x1p20, 0x1p-30}) {
+        for (double const second : {1.0, 0x1p12, 0x1p-12}) {
+            auto const f =
+                free_flow(2, [second](auto const&, auto const& x, auto const&, auto const&) {
+                    return std::vector{x[1], -9 / (second * second) * x[0]};
+                });
+            double const speed = length / second;
+            perturbed_step<interval> step(*f);
+            step.set_rate_bound({0, 0.1 * speed / second});
+            REQUIRE(prove(step, second, box{between(-length, length),
+                                            between(-3 * speed, 3 * speed)}));
+            CHECK(step.at_end()[0] <= 1.1 * length * 0.1 / 9 * (1 - std::cos(3.0)));
+            CHECK(step.at_end()[1] <= 1.1 * speed * 0.1 / 3 * (2 - std::sin(3.0)));
+        }
+    }
 }
 
 TEST_CASE("an uncertain input is a perturbation of the rates that it enters") {

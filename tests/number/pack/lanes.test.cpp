@@ -174,3 +174,16 @@ TEST_CASE("functions in lanes enclose the same as alone, undefined lanes apart")
         }
     }
 }
+
+TEST_CASE("the power of two below each lane") {
+    using namespace sivid;
+    CHECK(unit_below(1.0) == 1.0);
+    CHECK(unit_below(1023.0) == 512.0);
+    CHECK(unit_below(0.3) == 0.25);
+    for (double const odd : {0.0, -3.0, 1e200, 1e-200, HUGE_VAL, std::nan("")})
+        CHECK(unit_below(odd) == 1.0);
+    lanes<8> x(5.0);
+    x[3] = 1e-3;
+    CHECK(unit_below(x)[0] == 4.0);
+    CHECK(unit_below(x)[3] == 0x1p-10);
+}

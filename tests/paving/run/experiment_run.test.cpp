@@ -417,34 +417,37 @@ TEST_CASE("inputs that change fast may be followed in shorter steps than were as
     auto const shortest = [](sivid::experiment const& e, double asked) {
         return sivid::paving_detail::steps_for(e, {.minimum_step = asked}).minimum_step;
     };
-    sivid::experiment e;
-    CHECK(shortest(e, 1e-3) == 1e-3);
-    e.inputs = {sivid::sampled_signal({0, 0.05, 0.1}, {1, 2, 3}, sivid::interpolation::hold)};
-    CHECK_THAT(shortest(e, 1e-3), WithinRel(1e-3, 1e-12));
-    CHECK(shortest(e, 1e-6) == 1e-6);
-    e.inputs.push_back(
-        sivid::sampled_signal({0, 0.005, 0.01}, {1, 2, 3}, sivid::interpolation::linear));
-    CHECK_THAT(shortest(e, 1e-3), WithinRel(1e-5, 1e-12));
-    e.inputs = {sivid::sampled_signal({0, 1e-9, 1}, {1, 2, 3}, sivid::interpolation::linear)};
-    CHECK(shortest(e, 1e-3) == 1e-6);
+    for (double const unit : {1.0, 0x1p-10, 0x1p20}) { // a second in the unit
+        sivid::experiment e;
+        e.measurements = {{unit, 0, {0, 1}}};
+        auto const input = [unit](std::vector<double> times, sivid::interpolation how) {
+            for (double& t : times) t *= unit;
+            return sivid::sampled_signal(times, {1, 2, 3}, how);
+        };
+        CHECK(shortest(e, 1e-3) == 1e-3);
+        e.inputs = {input({0, 0.05, 0.1}, sivid::interpolation::hold)};
+        CHECK_THAT(shortest(e, 1e-3), WithinRel(1e-3, 1e-12));
+        CHECK(shortest(e, 1e-6) == 1e-6);
+        e.inputs.push_back(input({0, 0.005, 0.01}, sivid::interpolation::linear));
+        CHECK_THAT(shortest(e, 1e-3), WithinRel(1e-5, 1e-12));
+        e.inputs = {input({0, 1e-9, 1}, sivid::interpolation::linear)};
+        CHECK(shortest(e, 1e-3) == 1e-7);
+    }
 }
 
-TEST_CASE("steps go with what a record lasts, where that is no ordinary number of units") {
+TEST_CASE("steps go with what a record lasts, or with its inputs while nothing is measured") {
     using sivid::paving_detail::steps_for;
     sivid::enclosure_options const asked{.minimum_step = 1e-3};
     sivid::experiment e;
     e.begin = 2;
-    for (double const lasts : {0.0, 1.0, 30.0, 100.0}) {
+    for (double const lasts : {0x1p-10, 1.0, 30.0, 1e6}) {
         e.measurements = {{2 + lasts, 0, {0, 1}}};
         CHECK(steps_for(e, asked).minimum_step == asked.minimum_step);
-        CHECK(steps_for(e, asked).longest_step() == 1);
+        CHECK(steps_for(e, asked).span == lasts);
     }
-    e.measurements = {{2 + 0x1p-10, 0, {0, 1}}};
-    CHECK(steps_for(e, asked).minimum_step == asked.minimum_step * 0x1p-10);
-    CHECK(steps_for(e, asked).longest_step() == 1);
-    e.measurements.push_back({2 + 1e4, 0, {0, 1}});
-    CHECK(steps_for(e, asked).minimum_step == asked.minimum_step);
-    CHECK(steps_for(e, asked).longest_step() == 100);
+    e.measurements.clear();
+    e.inputs = {sivid::sampled_signal({2, 500, 1002}, {1, 2, 3}, sivid::interpolation::hold)};
+    CHECK(steps_for(e, asked).span == 1000);
 }
 
 TEST_CASE("runs in scalars enclose the outputs of all parameters and starts") {

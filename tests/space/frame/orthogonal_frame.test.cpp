@@ -85,6 +85,28 @@ TEST_CASE("the first axis follows the column that is longest in the set") {
     CHECK(std::abs(first.axes(0, 0) - first.axes(1, 0)) < 1e-14);
 }
 
+TEST_CASE("axes are orthogonal where rows are measured in sizes of their own") {
+    draws d(35);
+    for (int round = 0; round < 60; ++round) {
+        auto const n = static_cast<Eigen::Index>(2 + d.below(4));
+        Eigen::MatrixXd const a = d.matrix(n, n, 3);
+        std::vector<double> weights, ones, sizes;
+        for (Eigen::Index i = 0; i < n; ++i) {
+            weights.push_back(d.uniform(0, 1));
+            ones.push_back(1);
+            sizes.push_back(std::pow(10, d.uniform(-8, 8)));
+        }
+        auto const scale = Eigen::Map<Eigen::VectorXd const>(sizes.data(), n);
+        auto const plain = make_frame<interval>(a, weights);
+        auto const same = make_frame<interval>(a, weights, ones);
+        CHECK(plain.axes == same.axes);
+        auto const frame = make_frame<interval>(scale.asDiagonal() * a, weights, sizes);
+        check_inverse(frame.axes, frame.inverse);
+        Eigen::MatrixXd const apart = scale.cwiseInverse().asDiagonal() * frame.axes - plain.axes;
+        CHECK(apart.cwiseAbs().maxCoeff() < 1e-9);
+    }
+}
+
 TEST_CASE("matrices far from orthogonal are inverted or refused, never wrongly") {
     draws d(32);
     int accepted = 0;

@@ -166,11 +166,22 @@ private:
         }
         excess_found result;
         std::map<item*, double> weight;
+        std::vector<double> size(m, 0.0); // of each output, the largest at any instant
+        for (std::size_t y = 0; y < count; ++y) {
+            double const most = std::max(std::abs(low[y]), std::abs(high[y]));
+            if (std::isfinite(most)) size[y % m] = std::max(size[y % m], most);
+        }
         for (std::size_t y = 0; y < count; ++y) {
             double const width = high[y] - low[y];
+<<<<<<< HEAD
             double const tiny = 1e-6 * std::max(std::abs(low[y]), std::abs(high[y]));
+=======
+            double const tiny = 1e-6 * size[y % m];
+>>>>>>> w-strength
             double const attained = std::max(inner_high[y] - inner_low[y], 0.0) + tiny;
-            double const share = std::isfinite(width) ? (width - tiny) / attained - 1 : infinity;
+            double const share = !std::isfinite(width) ? infinity
+                                 : width > tiny        ? (width - tiny) / attained - 1
+                                                       : -1;
             result.largest = std::max(result.largest, share);
             if (!(share > options_.excess)) continue;
             double const heavy = std::min(share, 10.0);

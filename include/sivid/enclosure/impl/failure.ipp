@@ -50,9 +50,9 @@ SIVID_DECL std::string advised_failure::what(remedy_trial const& t) {
     case advice::higher_order:
         return (o.method ? o.method->name : "order " + std::to_string(o.order)) +
                " with tolerance " + short_text(o.tolerance) + " and steps down to " +
-               short_text(o.minimum_step) + " s";
+               short_text(o.shortest_step()) + " s";
     case advice::shorter_steps:
-        return "steps down to " + short_text(o.minimum_step) + " s";
+        return "steps down to " + short_text(o.shortest_step()) + " s";
     case advice::more_steps:
         return std::to_string(o.maximum_steps) + " steps";
     case advice::other_method:

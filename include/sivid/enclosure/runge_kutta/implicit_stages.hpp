@@ -159,9 +159,14 @@ auto implicit_stages<T>::approximate(double t, vector const& x, T const& step,
             residual.push_back(arithmetic::sub(k[i], (*image)[i]));
         }
         auto const change = times(inverse, residual);
-        double norm = 0;
-        for (std::size_t i = 0; i < k.size(); ++i) {
-            norm = std::max(norm, set::size(set::core(change[i])));
+        double norm = 0; // as a share of the largest stage of the same state
+        for (std::size_t s = 0; s < n; ++s) {
+            double most = 0, size = 0;
+            for (std::size_t i = s; i < k.size(); i += n) {
+                most = std::max(most, set::size(set::core(change[i])));
+                size = std::max(size, set::size(k[i]));
+            }
+            if (most > 0) norm = std::max(norm, most / std::max(size, most));
         }
         if (!std::isfinite(norm)) return std::nullopt;
         if (round > 1 && norm >= 0.5 * before) break;

@@ -215,34 +215,36 @@ private:
         auto const n = flow_->states();
         auto const m = columns();
         std::vector<entry> map(n * m);
-        double tail = 0, spread = 0, size = 0;
-        double const power = w ? std::pow(length, static_cast<double>(L)) : 1;
-        for (std::size_t i = 0; i < n; ++i) {
-            double row = 0;
-            for (std::size_t c = 0; c < m; ++c) {
+        double const power = w ? enclosure_detail::power_of(length, L) : 1;
+        // By columns, each in its own unit: the largest of the rows, in the sizes of the states.
+        double worst = 0;
+        for (std::size_t c = 0; c < m; ++c) {
+            double tail = 0, spread = 0, size = 0;
+            for (std::size_t i = 0; i < n; ++i) {
                 if (!flow_->sensitive(i, c)) continue;
                 auto& over_step = map[i * m + c];
+                double rest = 0;
                 if (w) {
                     auto const last = last_variation(*flow_, tube_, *w, i, c, L, run_.shape());
-                    row += last.norm();
+                    rest = last.norm() * power;
                     over_step = variation_at_end(series_, last, i, c, L, run_.shape(), length);
                 } else {
-                    double const rest = tail_.variation(i, c);
-                    row += rest;
+                    rest = tail_.variation(i, c);
                     over_step = variation_at_end(series_, rest, i, c, L, run_.shape(), length);
                 }
-                spread = std::max(spread, over_step.spread());
-                size = std::max(size, over_step.polynomial_norm());
+                tail = std::max(tail, rest / run_.size(i));
+                spread = std::max(spread, over_step.spread() / run_.size(i));
+                size = std::max(size, over_step.polynomial_norm() / run_.size(i));
             }
-            tail = std::max(tail, row * power);
+            double const allowed = std::max(
+                options_.tolerance * size + options_.relative_tolerance * spread, entry::unit * size);
+            if (tail > 0) worst = std::max(worst, tail / allowed);
         }
         // The next step's order follows the truncation, as far as it exceeds a rounding: a
         // preference.
-        double const allowed =
-            std::max(options_.tolerance + options_.relative_tolerance * spread, entry::unit * size);
-        if (tail > allowed) {
+        if (worst > 1) {
             order_ = std::min(options_.order, L + 2);
-        } else if (tail < 0.01 * allowed && L > 2) {
+        } else if (worst < 0.01 && L > 2) {
             order_ = L - 1;
         } else {
             order_ = L;
@@ -274,7 +276,9 @@ private:
             }
         }
         centre_ = std::move(next);
-        rest_.map(along, spread_along, lost);
+        std::vector<double> units;
+        for (std::size_t i = 0; i < n; ++i) units.push_back(unit_below(run_.size(i)));
+        rest_.map(along, spread_along, lost, units);
     }
 
     static double& at(Eigen::MatrixXd& a, std::size_t i, std::size_t j) {
@@ -321,7 +325,9 @@ sensitivities_at(flow const& f, enclosure_options const& options, box const& ini
                  box const& parameters, double begin, std::vector<double> const& times,
                  std::optional<enclosure_failure>* failure = nullptr) {
     auto const unknowns = normalised_unknowns(initial, parameters).variables;
-    sensitive_flow<Model> run(f, options, unknowns, suggested_degree(unknowns));
+    double const end = times.empty() ? begin : times.back();
+    sensitive_flow<Model> run(f, for_span(options, end - begin), unknowns,
+                              suggested_degree(unknowns));
     run.begin(begin, initial, parameters);
     std::vector<measured_sensitivities<Model>> result;
     for (double const t : times) {

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -58,7 +59,8 @@ struct doubleton {
     Eigen::MatrixXd shape;      ///< C, n x (n + parameters)
     Eigen::MatrixXd axes;       ///< B, n x n
     basic_box<I> remainder;     ///< [r]
-    basic_box<I> hull;          ///< a box that contains the set
+    basic_box<I> hull;           ///< a box that contains the set
+    std::vector<double> largest; ///< about the largest |x_i| so far; no proof rests on it
 
     /// The set at the start: m the centre of the box, C the identity on the initial state.
     [[nodiscard]] static doubleton start(double time, basic_box<I> const& initial,
@@ -72,7 +74,16 @@ struct doubleton {
         set.axes = Eigen::MatrixXd::Identity(n, n);
         set.remainder = basic_box<I>(initial.size());
         set.hull = initial;
+        set.largest.assign(initial.size(), 0.0);
+        set.note_sizes(initial);
         return set;
+    }
+    /// Takes note of a box that was met.
+    void note_sizes(basic_box<I> const& x) {
+        for (std::size_t i = 0; i < largest.size(); ++i) {
+            double const size = interval_traits<I>::mag(x[i]);
+            if (std::isfinite(size)) largest[i] = std::max(largest[i], size);
+        }
     }
 
     /// The hull and m: over what slopes from m to members are taken. More than the hull where it
@@ -130,7 +141,11 @@ struct doubleton {
         auto const turned = product(jx, axes);
         std::vector<double> weights(n);
         for (std::size_t i = 0; i < n; ++i) weights[i] = traits::mag(remainder[i]);
-        auto frame = make_frame<I>(approximate_mid(turned), weights);
+        next.largest = largest;
+        next.note_sizes(direct);
+        std::vector<double> sizes = next.largest;
+        for (double& x : sizes) x = x > 0 ? x : 1;
+        auto frame = make_frame<I>(approximate_mid(turned), weights, sizes);
         next.axes = std::move(frame.axes);
         next.remainder =
             add(product(frame.inverse, rest), product(product(frame.inverse, turned), remainder));

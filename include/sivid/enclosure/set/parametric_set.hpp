@@ -52,9 +52,10 @@ struct parametric_set {
     std::vector<C> tail;         ///< \f$ \ell \f$, 0 but for points: see `parametric_flow`
     std::vector<column> columns; ///< g_j, radii 0, oldest first
     std::vector<C> reach;        ///< \f$ E_i \ge |\ell_i| + \sum_j \|g_{ij}\| \f$
+    std::vector<C> largest;      ///< about the largest |x_i| so far; no proof rests on it
 
     explicit parametric_set(std::size_t states = 0, shape_type const& s = shape_type::number())
-        : centre(states, Model(s)), tail(states), reach(states) {}
+        : centre(states, Model(s)), tail(states), reach(states), largest(states) {}
 
     /// Starts the family of one lane.
     /// @param alone  no other lane is in use: all start so, since functions of what stands idle are
@@ -63,6 +64,7 @@ struct parametric_set {
                bool alone = false) {
         std::vector<C> rest(centre.size());
         tail.resize(centre.size());
+        largest.resize(centre.size());
         for (std::size_t l = 0; l < side_by_side::count; ++l) {
             if (l != lane && !alone) continue;
             side_by_side::put(time, l, t);
@@ -77,6 +79,7 @@ struct parametric_set {
                 enclosure_detail::put(unknowns.initial[i], l, centre[i]);
                 side_by_side::put(rest[i], l, side_by_side::get(centre[i].r(), l));
                 side_by_side::put(tail[i], l, 0.0);
+                side_by_side::put(largest[i], l, 0.0);
             }
         }
         for (auto& p : centre) p.r() = 0.0;
@@ -105,6 +108,8 @@ struct parametric_set {
         }
         double const up = 1 + static_cast<double>(columns.size() + 4) * Model::unit;
         for (auto& e : reach) e = known(e * up);
+        for (std::size_t i = 0; i < largest.size(); ++i)
+            largest[i] = side_by_side::max(largest[i], centre[i].norm() + reach[i]);
     }
 
     /// A box that contains the set.
@@ -190,6 +195,7 @@ template <class Model>
         for (auto const& entry : g) column.push_back(lane_of(entry, lane));
     }
     for (auto const& e : set.reach) result.reach.push_back(lane_traits<C>::get(e, lane));
+    for (auto const& x : set.largest) result.largest.push_back(lane_traits<C>::get(x, lane));
     return result;
 }
 
@@ -199,12 +205,7 @@ void parametric_set<Model>::reduce(std::size_t most, std::vector<C>& lost, mask 
     auto const n = centre.size();
     measure();
     std::vector<C> unit; // of each state: about what it has lost, as a power of two
-    for (auto const& e : reach) {
-        unit.push_back(each_lane<C>([&](std::size_t l) {
-            double const x = side_by_side::get(e, l);
-            return x > 1e-100 && x < 1e100 ? std::ldexp(1.0, std::ilogb(x)) : 1.0;
-        }));
-    }
+    for (auto const& e : reach) unit.push_back(unit_below(e));
     std::vector<C> length(columns.size());
     for (std::size_t j = 0; j < columns.size(); ++j) {
         for (std::size_t i = 0; i < n; ++i) length[j] += columns[j][i].norm() / unit[i];

@@ -9,6 +9,7 @@
 #include <sivid/model/series/taylor_arithmetic.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -18,7 +19,8 @@ namespace sivid {
 
 /// How a perturbation of the rates spreads during one step, whose length enters with its end:
 ///   \f$ |d|' \le M |d| + G e + r \f$, and \f$ |d' - A d| \le R |d| + G e + r \f$,
-/// e the error bounds of the inputs, which run along lines, and |d| known to stay below `room`.
+/// e the error bounds of the inputs, which run along lines, and |d| known to stay below `room`. The
+/// bounds come from norms, so each state is measured in a unit of its own size.
 template <class C>
 struct perturbation_law {
     std::vector<C> growth; ///< M, states x states
@@ -27,6 +29,7 @@ struct perturbation_law {
     std::vector<C> gain;   ///< G, states x uncertain inputs
     std::vector<C> rate;   ///< r
     std::vector<C> room;
+    std::vector<C> unit; ///< of each state, powers of two; none: 1
 
     /// Bounds |d| at the end of a step, the less of both ways.
     [[nodiscard]] std::vector<C> deviation(std::vector<C> const& begin, std::vector<C> const& end,
@@ -47,18 +50,38 @@ struct perturbation_law {
 private:
     static constexpr double up = 1 + 1e-12;
 
+    static constexpr double tiny = 1e-290; ///< more than all underflows
+
+    [[nodiscard]] C unit_of(std::size_t i) const { return unit.empty() ? C(1.0) : unit[i]; }
+    /// A matrix of states by states, in their units.
+    [[nodiscard]] std::vector<C> measured(std::vector<C> a) const {
+        auto const n = rate.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) a[i * n + j] *= unit_of(j) / unit_of(i);
+        }
+        return a;
+    }
     [[nodiscard]] std::vector<C> bound(std::vector<C> begin, std::vector<C> end, C const& h) const {
         auto const n = rate.size();
-        auto result = bound_perturbation(growth, begin, end, h);
+        // What underflows in `measured` is below `tiny` for all |d| that are no nonsense.
+        typename lane_traits<C>::mask usual(true);
+        for (std::size_t i = 0; i < n; ++i) {
+            usual = usual & (room[i] < unit_of(i) * 1e30);
+            for (auto* w : {&begin, &end}) (*w)[i] = (*w)[i] / unit_of(i) + tiny;
+        }
+        auto result = bound_perturbation(measured(growth), begin, end, h);
         for (std::size_t i = 0; i < n; ++i) {
             C more{};
             for (std::size_t j = 0; j < n; ++j) more += beside[i * n + j] * room[j];
+            more = more / unit_of(i) + tiny;
             begin[i] = (begin[i] + more) * up;
             end[i] = (end[i] + more) * up;
         }
-        auto const other = bound_linear_perturbation(middle, begin, end, h);
+        auto const other = bound_linear_perturbation(measured(middle), begin, end, h);
         for (std::size_t i = 0; i < n; ++i) {
-            result[i] = lane_traits<C>::min(result[i], other[i]);
+            C const least = lane_traits<C>::min(result[i], other[i]) * unit_of(i) + tiny;
+            result[i] = lane_traits<C>::select(usual, least,
+                                               C(std::numeric_limits<double>::infinity()));
         }
         return result;
     }
@@ -137,12 +160,15 @@ public:
     /// @param to      its end, at most the next knot of a sampled input
     /// @param times   encloses all times of the step
     /// @param tube    all nominal solutions of the family, at all these times
+    /// @param sizes   about the largest |x_i|, above 0; no proof rests on them
     /// @param trying  the lanes that matter
     /// @returns the lanes of `trying` for which a bound was found
     template <class Tube>
     [[nodiscard]] mask prove(scalar const& from, scalar const& to, T const& times, Tube const& tube,
-                             mask trying) {
+                             std::vector<scalar> const& sizes, mask trying) {
         auto const n = flow_->states();
+        law_.unit.clear();
+        for (auto const& x : sizes) law_.unit.push_back(unit_below(x));
         scalar const h = to - from;
         begin_ = input_errors(*flow_, from, from);
         end_ = input_errors(*flow_, from, to);

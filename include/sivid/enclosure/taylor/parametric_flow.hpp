@@ -136,7 +136,7 @@ std::pair<double, std::size_t> parametric_flow<Model, Centre>::estimate(std::siz
             double const c = side_by_side::get(centre_.state(i, k).norm(), lane);
             if (!(c > 0) || !std::isfinite(c)) continue;
             double const h =
-                std::pow(side_by_side::get(allowed(i), lane) / c, 1.0 / static_cast<double>(k));
+                enclosure_detail::length_for(side_by_side::get(allowed(i), lane), c, k);
             if (h < least.first) least = {h, i};
         }
     }
@@ -151,7 +151,7 @@ double parametric_flow<Model, Centre>::propose(std::size_t lane, double rest) co
     // A little longer rather than once more: the length aims at a tenth of what is allowed.
     double const longer = h * std::pow(4.0, 1.0 / static_cast<double>(order_ + 1));
     if (rest <= std::min(longer, options_.longest_step())) return rest;
-    return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.minimum_step)) : h;
+    return h > 0.5 * rest ? std::max(0.5 * rest, std::min(h, options_.shortest_step())) : h;
 }
 
 /// The longest step up to h that does not magnify by much what the degree of the polynomials loses.
@@ -174,7 +174,7 @@ double parametric_flow<Model, Centre>::gentle(std::size_t lane, double h) const 
             lost[k] = std::max(lost[k], side_by_side::get(share, lane));
         }
     }
-    while (h > options_.minimum_step) {
+    while (h > options_.shortest_step()) {
         double rate = 0;
         for (std::size_t k = last; k >= 1; --k) rate = rate * h + lost[k];
         if (!(rate * h > 1 && rate > most * lost[1])) break;
@@ -310,7 +310,7 @@ parametric_flow<Model, Centre>::advance(C const& limit) {
             lane.next = smooth ? gentle(l, length) : length;
             lane.held = lane.next < length;
             if (lane.held)
-                lane.next = std::min(lane.next, std::max(0.5 * rest, options_.minimum_step));
+                lane.next = std::min(lane.next, std::max(0.5 * rest, options_.shortest_step()));
             lane.cut = lane.near < lane.next;
             if (lane.cut) lane.next = lane.near;
             lane.proposed = lane.next;

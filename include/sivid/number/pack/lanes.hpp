@@ -218,6 +218,16 @@ template <class C, class F>
     return result;
 }
 
+/// The power of two next below each lane, to measure in: it makes products without a rounding. 1
+/// where a lane is beyond 1e100, below 1e-100 or no number.
+template <class C>
+[[nodiscard]] C unit_below(C const& x) {
+    return each_lane<C>([&](std::size_t l) {
+        double const y = lane_traits<C>::get(x, l);
+        return y > 1e-100 && y < 1e100 ? std::ldexp(1.0, std::ilogb(y)) : 1.0;
+    });
+}
+
 } // namespace sivid
 
 #endif

@@ -5,6 +5,7 @@
 #include <sivid/model/change/added_start.hpp>
 #include <sivid/model/change/detail/smoothed.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/judge/detail/kink_ranges.hpp>
 #include <sivid/paving/judge/detail/response_judgement.hpp>
 #include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/response/local_response.hpp>
@@ -293,20 +294,18 @@ public:
 private:
     /// The recorded flow without kinks; none where it has none.
     [[nodiscard]] std::unique_ptr<flow const> smooth_flow(std::size_t e) const {
-        constexpr double share = 1e-7; // of a measurement's width
-        double narrowest = detail::infinity;
-        for (auto const& m : records_[e]) narrowest = std::min(narrowest, width(m.bound));
-        if (!(narrowest > 1e-90 && narrowest < 1e90)) return nullptr; // or what is no number
-        auto const smooth = smoothed(problem_->model, share * narrowest);
+        auto const& posed = problem_->experiments[e];
+        auto const smooth = smoothed(problem_->model, 1e-8 * finest_share(records_[e]),
+                                     ranges_in(*problem_, posed));
         if (smooth.bounds.empty()) return nullptr;
-        auto inputs = nominal(problem_->experiments[e].inputs);
+        auto inputs = nominal(posed.inputs);
         for (double const bound : smooth.bounds) {
-            inputs.emplace_back(sampled_signal({problem_->experiments[e].begin}, {0.0},
-                                               interpolation::hold, {bound}));
+            inputs.emplace_back(
+                sampled_signal({posed.begin}, {0.0}, interpolation::hold, {bound}));
         }
         return std::make_unique<flow const>(
             smooth.model, problem_->choice, inputs,
-            region_of_runs{problem_->experiments[e].initial, problem_->prior});
+            region_of_runs{posed.initial, problem_->prior});
     }
     /// Knots of the inputs and measurements until the last of them: each ends a step.
     [[nodiscard]] std::size_t stops(std::size_t e) const {

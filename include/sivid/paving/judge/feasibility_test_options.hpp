@@ -15,7 +15,7 @@ struct feasibility_test_options : run_options {
     /// How a guessed point is verified: a point without unknowns by a Taylor model of degree 0, its
     /// kinks rounded off where they stop it; otherwise by first-order sets with fine steps.
     run_options witness{
-        {.order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-5, .minimum_step = 1e-6}};
+        {.order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-5, .minimum_step = 1e-7}};
     std::size_t witness_steps = 20'000; ///< at most, besides those that knots and samples end
     /// Contract boxes by the dependence of the outputs on the parameters, and decide parts of a box
     /// by what was computed for the whole. Without it the test is the report's: enclosure against

@@ -15,24 +15,25 @@
 
 namespace sivid {
 
-/// A matrix Q of doubles that is orthogonal up to rounding, with a proven enclosure of its inverse.
+/// A matrix D Q of doubles, Q orthogonal up to rounding and D diagonal, with a proven enclosure of
+/// its inverse.
 template <class I>
 struct orthogonal_frame {
     Eigen::MatrixXd axes;
     interval_matrix<I> inverse;
 };
 
-/// Encloses \f$ Q^{-1} \f$ of a nearly orthogonal matrix.
-///   With \f$ E = Q^T Q - I \f$ and \f$ e = \|E\|_\infty < 1 \f$, Q is invertible and
-///   \f$ Q^{-1} = (I + E)^{-1} Q^T \in Q^T + [-d, d] \, \mathbf{1} \, |Q^T| \f$, \f$ d = e/(1-e)
-///   \f$.
+/// Encloses \f$ B^{-1} \f$ from a matrix X near it.
+///   With \f$ E = X B - I \f$ and \f$ e = \|E\|_\infty < 1 \f$, B is invertible and
+///   \f$ B^{-1} = (I + E)^{-1} X \in X + [-d, d] \, \mathbf{1} \, |X| \f$, \f$ d = e/(1-e) \f$.
 /// @returns false when e could not be proved below 1/2; `inverse` is then not to be used.
 template <class I>
-[[nodiscard]] bool enclose_inverse(Eigen::MatrixXd const& q, interval_matrix<I>& inverse) {
+[[nodiscard]] bool enclose_inverse(Eigen::MatrixXd const& b, Eigen::MatrixXd const& x,
+                                   interval_matrix<I>& inverse) {
     using traits = interval_traits<I>;
-    auto const n = static_cast<std::size_t>(q.rows());
-    auto const entry = [&q](std::size_t i, std::size_t j) {
-        return traits::point(q(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+    auto const n = static_cast<std::size_t>(b.rows());
+    auto const entry = [](Eigen::MatrixXd const& of, std::size_t i, std::size_t j) {
+        return traits::point(of(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
     };
     double e = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -40,7 +41,7 @@ template <class I>
         for (std::size_t j = 0; j < n; ++j) {
             I dot = traits::point(i == j ? -1.0 : 0.0);
             for (std::size_t k = 0; k < n; ++k) {
-                dot = traits::add(dot, traits::mul(entry(k, i), entry(k, j)));
+                dot = traits::add(dot, traits::mul(entry(x, i, k), entry(b, k, j)));
             }
             row = traits::add(row, traits::abs(dot));
         }
@@ -54,11 +55,17 @@ template <class I>
     inverse = interval_matrix<I>(n, n);
     for (std::size_t j = 0; j < n; ++j) {
         I column = traits::point(0.0);
-        for (std::size_t i = 0; i < n; ++i) column = traits::add(column, traits::abs(entry(j, i)));
+        for (std::size_t i = 0; i < n; ++i)
+            column = traits::add(column, traits::abs(entry(x, i, j)));
         I const spread = traits::mul(d, column);
-        for (std::size_t i = 0; i < n; ++i) inverse(i, j) = traits::add(entry(j, i), spread);
+        for (std::size_t i = 0; i < n; ++i) inverse(i, j) = traits::add(entry(x, i, j), spread);
     }
     return true;
+}
+/// The same of a nearly orthogonal matrix.
+template <class I>
+[[nodiscard]] bool enclose_inverse(Eigen::MatrixXd const& q, interval_matrix<I>& inverse) {
+    return enclose_inverse<I>(q, q.transpose(), inverse);
 }
 
 /// Nearly orthogonal axes whose first ones follow the longest columns of `a`, so that boxing along
@@ -72,14 +79,22 @@ template <class I>
                                                          std::vector<double> const& weights);
 
 /// `orthogonal_axes` with a proven inverse; the identity where that fails.
+/// @param sizes  of the rows, above 0: axes are orthogonal where rows are measured in them, whatever
+///   the rows' units; none: as they are
 /// @guarantee  `inverse` encloses the inverse of `axes`; no property of `a` is trusted.
 template <class I>
 [[nodiscard]] orthogonal_frame<I> make_frame(Eigen::MatrixXd const& a,
-                                             std::vector<double> const& weights) {
+                                             std::vector<double> const& weights,
+                                             std::vector<double> const& sizes = {}) {
     auto const n = a.rows();
-    auto q = orthogonal_axes(a, weights);
+    Eigen::VectorXd scale = Eigen::VectorXd::Ones(n);
+    for (std::size_t i = 0; i < sizes.size(); ++i) scale[static_cast<Eigen::Index>(i)] = sizes[i];
+    Eigen::MatrixXd const measured = scale.cwiseInverse().asDiagonal() * a;
+    Eigen::MatrixXd const q = orthogonal_axes(measured, weights);
+    Eigen::MatrixXd axes = scale.asDiagonal() * q;
+    Eigen::MatrixXd const near = q.transpose() * scale.cwiseInverse().asDiagonal();
     interval_matrix<I> inverse;
-    if (enclose_inverse<I>(q, inverse)) return {std::move(q), std::move(inverse)};
+    if (enclose_inverse<I>(axes, near, inverse)) return {std::move(axes), std::move(inverse)};
     return {Eigen::MatrixXd::Identity(n, n),
             interval_matrix<I>::identity(static_cast<std::size_t>(n))};
 }

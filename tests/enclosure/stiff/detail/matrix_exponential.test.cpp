@@ -79,6 +79,28 @@ TEST_CASE("an interval of times, and stiff matrices") {
     CHECK(mag((*point)(0, 0)) < 1);
 }
 
+TEST_CASE("an exponential is as sharp whatever the units of the rows") {
+    Eigen::MatrixXd a(3, 3);
+    a << -1, 2, 0.5, -3, -0.5, 1, 0, 0, 0; // the last acts on the others alone
+    auto const plain = enclose_exponential<interval>(a, interval(2.0));
+    REQUIRE(plain);
+    for (double const size : {0x1p30, 1e9, 1e-7}) {
+        Eigen::VectorXd const d{{1, size, 1 / size}};
+        Eigen::MatrixXd const scaled = d.asDiagonal() * a * d.cwiseInverse().asDiagonal();
+        auto const e = enclose_exponential<interval>(scaled, interval(2.0));
+        REQUIRE(e);
+        auto const exact = exact_exponential(scaled, mp(2.0));
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                double const ratio =
+                    d[static_cast<Eigen::Index>(i)] / d[static_cast<Eigen::Index>(j)];
+                CHECK(encloses((*e)(i, j), exact[i][j], 1e-28 * ratio));
+                CHECK(width((*e)(i, j)) <= ratio * (4 * width((*plain)(i, j)) + 1e-13));
+            }
+        }
+    }
+}
+
 TEST_CASE("upper bounds for matrices without negative entries off the diagonal") {
     draws d(632);
     for (int round = 0; round < 40; ++round) {

@@ -130,6 +130,10 @@ private:
     static interval wider(interval const& x, double by) {
         return traits::add(x, traits::bounds(-by, by));
     }
+    /// A length that does not matter for a state.
+    [[nodiscard]] double little(std::size_t i, interval const& x) const {
+        return 1e-9 * std::max(flow_->small(i), mag(x));
+    }
     /// Both hold; an empty meet would be a fault elsewhere and must not prove anything.
     static interval meet(interval const& a, interval const& b) {
         auto const both = traits::intersect(a, b);
@@ -145,7 +149,6 @@ private:
     [[nodiscard]] std::optional<box> sweep(double from, double to, box const& at_start,
                                            box const& at_end, int pieces) {
         auto const n = flow_->states();
-        constexpr double least = 1e-290; // what rests at 0 is held strictly, in any unit
         std::optional<box> all;
         auto x = at_start;
         double begin = from;
@@ -158,7 +161,7 @@ private:
             interval const since = traits::bounds(0.0, length.upper());
             auto b = pieces == 1 ? hull(x, at_end) : x;
             for (std::size_t i = 0; i < n; ++i)
-                b[i] = wider(b[i], 0.1 * width(b[i]) + 1e-9 * mag(b[i]) + least);
+                b[i] = wider(b[i], 0.1 * width(b[i]) + little(i, b[i]));
             bool proved = false;
             for (int round = 0; round < 12 && !proved; ++round) {
                 if (!rates(times, b, inputs)) return std::nullopt;
@@ -176,7 +179,7 @@ private:
                 } else {
                     auto const more = hull(b, image);
                     for (std::size_t i = 0; i < n; ++i)
-                        b[i] = wider(more[i], 0.2 * width(image[i]) + 1e-9 * mag(image[i]) + least);
+                        b[i] = wider(more[i], 0.2 * width(image[i]) + little(i, image[i]));
                 }
             }
             if (!proved || (k < pieces && !rates(times, b, inputs))) return std::nullopt;

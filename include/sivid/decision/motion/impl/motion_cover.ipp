@@ -55,7 +55,7 @@ SIVID_DECL motion_cover::motion_cover(prediction_problem const& problem,
         for (std::size_t y = 0; y < flow_.channels(); ++y)
             samples_.push_back({t, y, interval_traits<interval>::entire()});
     }
-    experiment_ = {"prediction", problem.inputs, 0, problem.initial, {}, 0};
+    experiment_ = {"prediction", problem.inputs, 0, problem.initial, samples_, 0};
     run_ = make_run(flow_, experiment_, samples_, problem.initial, around_, options);
 }
 

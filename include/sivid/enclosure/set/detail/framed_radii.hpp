@@ -31,16 +31,22 @@ public:
 
     /// The whole of \f$ \{ A B r_c + d_c \} \f$ for \f$ |A - centre| \le spread \f$,
     /// \f$ |r_c| \le \rho_c, |d_c| \le rest_c \f$, in a new frame.
+    /// @param units  powers of two in which rows are measured where the frame is to be orthogonal;
+    ///               none: 1
     /// @given  no entry of `spread` and `rest` is negative
-    void map(matrix const& centre, matrix const& spread, matrix const& rest) {
+    void map(matrix centre, matrix spread, matrix rest, std::vector<double> const& units = {}) {
         auto const n = axes_.rows();
+        for (auto* rows : {&centre, &spread, &rest}) {
+            for (std::size_t i = 0; i < units.size(); ++i) rows->row(index(i)) /= units[i];
+        }
         // Of a product of n by n matrices, in units of the product of the absolute values.
         double const rounding = static_cast<double>(n + 2) * unit;
         std::vector<double> weights(static_cast<std::size_t>(n), 0.0);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            for (Eigen::Index c = 0; c < radii_.cols(); ++c) {
+        for (Eigen::Index c = 0; c < radii_.cols(); ++c) {
+            double const most = radii_.col(c).maxCoeff(); // columns may have units of their own
+            for (Eigen::Index i = 0; i < n && most > 0; ++i) {
                 auto& w = weights[static_cast<std::size_t>(i)];
-                w = std::max(w, radii_(i, c));
+                w = std::max(w, radii_(i, c) / most);
             }
         }
         matrix const turned = centre.lazyProduct(axes_);
@@ -70,6 +76,7 @@ public:
                 radii_(i, c) = r < largest ? r : infinity; // NaN as well
             }
         }
+        for (std::size_t i = 0; i < units.size(); ++i) axes.row(index(i)) *= units[i];
         axes_ = std::move(axes);
     }
 

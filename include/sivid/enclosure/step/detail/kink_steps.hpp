@@ -18,7 +18,7 @@ inline constexpr std::size_t crossing_steps = 20;
 
 /// The shortest step; across a kink a thousandth of what the options say.
 [[nodiscard]] inline double shortest_step(enclosure_options const& o, bool crosses) {
-    return (crosses ? 1e-3 : 1.0) * o.minimum_step;
+    return (crosses ? 1e-3 : 1.0) * o.shortest_step();
 }
 /// Share of what a set spans that one step across a kink may lose.
 [[nodiscard]] inline double kink_share(enclosure_options const& o) {
@@ -26,7 +26,7 @@ inline constexpr std::size_t crossing_steps = 20;
 }
 /// Where a set rests on a kink, steps of this length are always short enough.
 [[nodiscard]] inline double resting_step(enclosure_options const& o) {
-    return 1e-4 * std::min(1.0, o.minimum_step / 1e-7);
+    return 1e-5 * o.span * std::min(1.0, o.minimum_step / 1e-8);
 }
 
 } // namespace sivid::enclosure_detail

@@ -16,7 +16,7 @@ std::pair<double, std::size_t> stepper<I>::estimate(basic_box<I> const& x) const
             double const c = traits::mag(centre_.state(i, k));
             if (!(c > 0) || !std::isfinite(c)) continue;
             // The remainder's half-width is a fraction of the coefficient times h^k.
-            double const h = std::pow(allowed(x, i) / c, 1.0 / static_cast<double>(k));
+            double const h = enclosure_detail::length_for(allowed(x, i), c, k);
             if (h < least.first) least = {h, i};
         }
     }
@@ -41,7 +41,7 @@ std::size_t stepper<I>::choose_order(double h, basic_box<I> const& x) const {
         for (std::size_t k = order; k <= order + 1 && enough; ++k) {
             for (std::size_t i = 0; i < x.size() && enough; ++i) {
                 double const c = traits::mag(centre_.state(i, k));
-                enough = c * std::pow(h, static_cast<double>(k)) <= 0.1 * allowed(x, i);
+                enough = c * enclosure_detail::power_of(h, k) <= 0.1 * allowed(x, i);
             }
         }
         if (enough) return std::min(options_.order, order + extra_order_);
@@ -55,6 +55,8 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
     auto const n = flow_->states();
     double const from = set.time;
     auto const x = set.hull_and_centre();
+    size_ = set.largest;
+    for (std::size_t i = 0; i < n; ++i) size_[i] = std::max(size_[i], flow_->small(i));
     I const begin = traits::point(from);
     why.time = from;
     if (long_) {
@@ -291,7 +293,7 @@ std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, doub
     auto const n = flow_->states();
     auto const x = set.hull_and_centre();
     double const rest = limit - set.time;
-    double const constant = 1 / long_->stiffness(set.time, x);
+    double const constant = 1 / long_->stiffness(set.time, x, size_);
     std::vector<double> margin(n);
     for (std::size_t i = 0; i < n; ++i) margin[i] = allowed(x, i);
     double h = std::min({rest, options_.longest_step(), long_length_});
@@ -299,7 +301,7 @@ std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, doub
     double const proposed = h;
     for (int attempt = 0; attempt < 12 && h > shortest * constant; ++attempt) {
         double const to = h >= rest ? limit : set.time + h;
-        if (h < options_.minimum_step || !(to > set.time)) break;
+        if (h < options_.shortest_step() || !(to > set.time)) break;
         auto tube = long_->enclose(set.time, to, x, set.centre, margin);
         auto map = tube ? long_->map(set.time, to, set.centre, *tube) : std::nullopt;
         double ratio = map ? 0 : HUGE_VAL;
@@ -345,7 +347,7 @@ template <class I>
 bool stepper<I>::perturb(tube_step<I>& step) {
     if (!perturbed_) return true;
     I const times = traits::bounds(step.from, step.to);
-    if (!perturbed_->prove(step.from, step.to, times, step.tube, true)) return false;
+    if (!perturbed_->prove(step.from, step.to, times, step.tube, size_, true)) return false;
     step.perturbation = perturbed_->law();
     auto const& away = perturbed_->largest();
     for (std::size_t i = 0; i < away.size(); ++i) {

@@ -12,6 +12,7 @@
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/doubleton.hpp>
 #include <sivid/enclosure/step/detail/kink_steps.hpp>
+#include <sivid/enclosure/step/detail/step_length.hpp>
 #include <sivid/enclosure/step/detail/tube_step.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
 #include <sivid/enclosure/stiff/detail/dissipative_step.hpp>
@@ -104,13 +105,13 @@ private:
         return traits::sub(traits::point(to), traits::point(from));
     }
     [[nodiscard]] double allowed(basic_box<I> const& x, std::size_t i) const {
-        return options_.tolerance * (1 + traits::mag(x[i])) +
+        return options_.tolerance * size_[i] +
                options_.relative_tolerance * traits::width(x[i]);
     }
     /// What a step across a kink may lose: a small share of what the set spans, besides what is
     /// lost anyway since the slopes differ on its two sides.
     [[nodiscard]] double allowed_at_kink(basic_box<I> const& x, std::size_t i) const {
-        return 10 * options_.tolerance * (1 + traits::mag(x[i])) +
+        return 10 * options_.tolerance * size_[i] +
                enclosure_detail::kink_share(options_) * traits::width(x[i]);
     }
     /// \f$ \sum_{k<order} s^k x_i^{[k]} + s^{order} last_i \f$ by Horner's rule.
@@ -133,7 +134,7 @@ private:
     }
     /// Half-width of s^k c, per state.
     [[nodiscard]] static double scaled_radius(I const& c, double h, std::size_t k) {
-        return traits::rad(c) * std::pow(h, static_cast<double>(k));
+        return traits::rad(c) * enclosure_detail::power_of(h, k);
     }
 
     [[nodiscard]] std::nullopt_t refuse(enclosure_failure& why, failure_reason reason,
@@ -147,7 +148,8 @@ private:
     /// Implicit methods: a step that is long against the problem's time constants, if there is one.
     [[nodiscard]] std::optional<tube_step<I>> prove_long(doubleton<I> const& set, double limit);
     [[nodiscard]] doubleton<I> map_long(tube_step<I> const& step, double to);
-    [[nodiscard]] doubleton<I> restarted(double to, basic_box<I> const& x) const;
+    [[nodiscard]] doubleton<I> restarted(double to, basic_box<I> const& x,
+                                         std::vector<double> const& largest) const;
     [[nodiscard]] doubleton<I> map(tube_step<I> const& step, double to);
     /// Of a smooth or kinked step whose series are loaded.
     [[nodiscard]] interval_matrix<I> flow_derivative(tube_step<I> const& step, I const& s);
@@ -178,6 +180,7 @@ private:
     ensemble<I> const* ensemble_ = nullptr;
     basic_box<I> lagrange_;       ///< x^[K](B)
     basic_box<I> tube_lagrange_;  ///< x^[q](B)
+    std::vector<double> size_;    ///< of the states of the set; a preference
     double learned_ = 1;          ///< accepted over estimated step length
     std::size_t extra_order_ = 0; ///< what wide sets need above the centre's order
     double near_ = HUGE_VAL;   ///< about the longest step that the neighbourhood of a kink allows

@@ -48,8 +48,11 @@ basic_box<I> stepper<I>::centre_image(tube_step<I> const& step, I const& s) {
 
 /// A set that starts anew from a box: what it knew of the ensemble is lost.
 template <class I>
-doubleton<I> stepper<I>::restarted(double to, basic_box<I> const& x) const {
+doubleton<I> stepper<I>::restarted(double to, basic_box<I> const& x,
+                                   std::vector<double> const& largest) const {
     auto next = doubleton<I>::start(to, x, flow_->parameters());
+    next.largest = largest;
+    next.note_sizes(x);
     next.shape.setZero();
     next.remainder = subtract(x, next.centre);
     return next;
@@ -60,7 +63,7 @@ doubleton<I> stepper<I>::map_long(tube_step<I> const& step, double to) {
     auto const map =
         long_map_ ? long_map_ : long_->map(step.from, to, step.start.centre, step.tube);
     auto const direct = perturbed(step, to, step.tube);
-    if (!map) return restarted(to, direct);
+    if (!map) return restarted(to, direct, step.start.largest);
     return step.start.mapped(to, perturbed(step, to, map->image), map->derivative, direct,
                              ensemble_->deviation);
 }
@@ -118,7 +121,7 @@ doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
         step, to, intersect(sum(start_, s, step.variational_order, tube_lagrange_), step.tube));
     if (step.jumps) {
         // No derivative exists across a jump.
-        return restarted(to, direct);
+        return restarted(to, direct, step.start.largest);
     }
     return step.start.mapped(to, perturbed(step, to, centre_image(step, s)),
                              flow_derivative(step, s), direct, deviation);

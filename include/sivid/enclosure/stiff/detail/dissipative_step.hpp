@@ -14,13 +14,16 @@
 namespace sivid {
 
 template <class I>
-double dissipative_step<I>::stiffness(double t, basic_box<I> const& x) {
+double dissipative_step<I>::stiffness(double t, basic_box<I> const& x,
+                                      std::vector<double> const& sizes) {
     I const time = traits::point(t);
     input_pieces<I> const inputs(*flow_, t, time);
     jacobian_.evaluate(time, x, inputs);
     std::vector<double> rows(flow_->states(), 0.0);
     for (auto const& e : flow_->entries()) {
-        if (e.column < rows.size()) rows[e.row] += traits::mag(jacobian_.output(e.output, 0));
+        if (e.column >= rows.size()) continue;
+        rows[e.row] +=
+            traits::mag(jacobian_.output(e.output, 0)) * (sizes[e.column] / sizes[e.row]);
     }
     double largest = 0;
     for (double const r : rows) largest = std::max(largest, r);

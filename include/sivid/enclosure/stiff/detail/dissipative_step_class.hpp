@@ -64,8 +64,10 @@ public:
     /// Order of the error in the length of the step.
     [[nodiscard]] std::size_t order() const { return nodes_.size(); }
 
-    /// Largest row sum of the Jacobian at the states x: one over the shortest time constant.
-    [[nodiscard]] double stiffness(double t, basic_box<I> const& x);
+    /// Largest row sum of the Jacobian at the states x, each measured in its own size: one over the
+    /// shortest time constant.
+    [[nodiscard]] double stiffness(double t, basic_box<I> const& x,
+                                   std::vector<double> const& sizes);
 
     /// A box that holds all solutions from `x` over [from, to].
     /// @param m       a point of `x`

@@ -10,12 +10,71 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace sivid {
+
+namespace enclosure_detail {
+
+/// Turns A into \f$ D^{-1} A D \f$, D diagonal of powers of two, whose rows and columns are about
+/// as large as each other: as small as the units of its rows allow. What only acts, or is only
+/// acted on, is measured so that it is as large as the rest.
+/// @param h  the time of the exponential; a rate for matrices that have none of their own
+/// @returns  D. No entry is rounded, but for those that leave the normal numbers: then A stays.
+/// @ref  Osborne 1960; Parlett and Reinsch 1969
+[[nodiscard]] inline std::vector<double> balance(Eigen::MatrixXd& a, double h) {
+    auto const n = a.rows();
+    std::vector<double> d(static_cast<std::size_t>(n), 1.0);
+    if (n < 2 || !a.allFinite()) return d;
+    auto const before = a;
+    auto const sums = [&](Eigen::Index i) {
+        double const own = std::abs(a(i, i));
+        return std::pair{a.row(i).cwiseAbs().sum() - own, a.col(i).cwiseAbs().sum() - own};
+    };
+    auto const scale = [&](Eigen::Index i, double ratio) {
+        double const f = std::ldexp(1.0, std::ilogb(ratio));
+        if (!(f > 1e-60 && f < 1e60)) return;
+        a.col(i) *= f;
+        a.row(i) /= f;
+        d[static_cast<std::size_t>(i)] *= f;
+    };
+    for (int sweep = 0; sweep < 6; ++sweep) {
+        for (Eigen::Index i = 0; i < n; ++i) {
+            auto const [row, column] = sums(i);
+            if (row > 0 && column > 0) scale(i, std::sqrt(row / column));
+        }
+    }
+    double rate = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        auto const [row, column] = sums(i);
+        rate = std::max({rate, std::abs(a(i, i)), std::sqrt(row) * std::sqrt(column)});
+    }
+    if (!(rate > 0)) rate = 1 / h;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        auto const [row, column] = sums(i);
+        if (column > 0 && !(row > 0)) scale(i, rate / column);
+        if (row > 0 && !(column > 0)) scale(i, row / rate);
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+        for (Eigen::Index j = 0; j < n; ++j) {
+            double const f = d[static_cast<std::size_t>(j)] / d[static_cast<std::size_t>(i)];
+            if (a(i, j) == before(i, j) * f && a(i, j) / f == before(i, j)) continue;
+            a = before;
+            d.assign(d.size(), 1.0);
+            return d;
+        }
+    }
+    return d;
+}
+
+} // namespace enclosure_detail
 
 /// Encloses \f$ e^{h A} \f$ for a matrix of doubles and every h of an interval, by scaling and
 /// squaring: with \f$ Z = 2^{-m} h A \f$ and \f$ \|Z\|_\infty \le z \le 1/2 \f$,
 ///   \f$ e^Z \in \sum_{k<K} Z^k/k! + [-r, r] \f$ entry by entry, \f$ r = 2 z^K / K! \f$.
+///   A norm means little where the rows have units of their own, so all is done for
+///   \f$ D^{-1} A D \f$ with a diagonal D of powers of two (`balance`).
 /// @param terms  K, at least 1; with the default r is below the rounding
 /// @given  h >= 0
 /// @returns nothing when the entries are not finite, or too large
@@ -23,11 +82,12 @@ namespace sivid {
 /// @ref   Higham, Functions of Matrices (2008), section 10.3
 template <class I>
 [[nodiscard]] std::optional<interval_matrix<I>>
-enclose_exponential(Eigen::MatrixXd const& a, I const& h, std::size_t terms = 16) {
+enclose_exponential(Eigen::MatrixXd a, I const& h, std::size_t terms = 16) {
     using traits = interval_traits<I>;
     auto const n = static_cast<std::size_t>(a.rows());
     double size = 0;
     for (std::size_t l = 0; l < traits::lanes; ++l) size = std::max(size, traits::upper(h, l));
+    auto const d = enclosure_detail::balance(a, size);
     double const norm = (a.array().abs().rowwise().sum().maxCoeff()) * size;
     if (!std::isfinite(norm) || norm > 1e9) return std::nullopt;
     int const squarings = norm > 0.4 ? static_cast<int>(std::ceil(std::log2(norm / 0.4))) : 0;
@@ -68,6 +128,10 @@ enclose_exponential(Eigen::MatrixXd const& a, I const& h, std::size_t terms = 16
         for (std::size_t j = 0; j < n; ++j) sum(i, j) = traits::add(sum(i, j), spread);
     }
     for (int k = 0; k < squarings; ++k) sum = product(sum, sum);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j)
+            sum(i, j) = traits::mul(sum(i, j), traits::point(d[i] / d[j]));
+    }
     return sum;
 }
 

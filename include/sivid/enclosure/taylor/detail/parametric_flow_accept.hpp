@@ -55,19 +55,18 @@ void parametric_flow<Model, Centre>::accept(mask moved, C const& to, std::size_t
         next[i].r() = 0.0;
     }
     if (sharp > 0) sharp_pays_ = pays;
-    // The order of V follows the size of its Lagrange term.
-    C tail{};
+    // What V's Lagrange term adds to the reach.
+    std::vector<C> added(n);
     C flow_power = length;
     for (std::size_t k = 1; k < flow_order; ++k) flow_power *= length;
     if (!side_by_side::all(jumps | !moved)) {
         for (std::size_t i = 0; i < n; ++i) {
-            C row{};
             for (std::size_t c = 0; c < n; ++c) {
                 if (!flow_->sensitive(i, c)) continue;
-                row += tails_ ? derivative_tail_.variation(i, c)
-                              : tube_.variation(i, c, flow_order).norm() * flow_power;
+                added[i] += (tails_ ? derivative_tail_.variation(i, c)
+                                    : tube_.variation(i, c, flow_order).norm() * flow_power) *
+                            set_.reach[c];
             }
-            tail = side_by_side::max(tail, row);
         }
     }
     if (!side_by_side::all(jumps | !moved) && !set_.columns.empty()) {
@@ -129,22 +128,6 @@ void parametric_flow<Model, Centre>::accept(mask moved, C const& to, std::size_t
         clamped = clamped && (side_by_side::get(to, l) >= flow_->next_knot(time(l)) ||
                               h >= options_.longest_step() || lanes_[l].held);
     }
-    if (order > 0) {
-        // What V's Lagrange term adds to the reach may be a share of what the step may lose anyway.
-        C lasting = C(0.05);
-        for (std::size_t i = 0; i < n; ++i) {
-            lasting = side_by_side::min(lasting, allowed(i) * 0.3 / (set_.reach[i] + C(1e-300)));
-        }
-        lasting = side_by_side::max(lasting, C(1e-3));
-        if (side_by_side::any(moved & (tail > lasting))) {
-            flow_order_ = std::min(flow_order + 1, options_.order);
-        } else if (side_by_side::all((tail < lasting * 0.01) | !moved) && flow_order > 2) {
-            flow_order_ = flow_order - 1;
-        }
-        adapt_order(moved, length, clamped);
-    } else {
-        flow_order_ = 3;
-    }
     for (std::size_t i = 0; i < n; ++i) {
         set_.centre[i] = select(moved, next[i], set_.centre[i]);
         set_.tail[i] = side_by_side::select(moved, tails[i], set_.tail[i]);
@@ -156,10 +139,35 @@ void parametric_flow<Model, Centre>::accept(mask moved, C const& to, std::size_t
     set_.reduce(13 * n, lost, running_);
     set_.append(lost);
     set_.measure();
+    adapt_flow_order(moved, order, flow_order, added);
+    if (order > 0) adapt_order(moved, length, clamped);
     for (std::size_t i = 0; i < n && perturbed_; ++i) {
         disturbed_[i] = side_by_side::min(disturbed_[i], set_.reach[i]);
     }
     stale_ = true;
+}
+
+/// The order of V follows what its Lagrange term adds to the reach: that may be a share of the reach
+/// itself, smaller where this is still less than what the step may lose anyway.
+template <class Model, class Centre>
+void parametric_flow<Model, Centre>::adapt_flow_order(mask moved, std::size_t order,
+                                                      std::size_t flow_order,
+                                                      std::vector<C> const& added) {
+    if (order == 0) {
+        flow_order_ = 3;
+        return;
+    }
+    C most{};
+    for (std::size_t i = 0; i < added.size(); ++i) {
+        C const bearable = side_by_side::max(
+            side_by_side::min(allowed(i) * 0.3, set_.reach[i] * 0.05), set_.reach[i] * 1e-3);
+        most = side_by_side::max(most, added[i] / (bearable + C(1e-300)));
+    }
+    if (side_by_side::any(moved & (most > C(1.0)))) {
+        flow_order_ = std::min(flow_order + 1, options_.order);
+    } else if (side_by_side::all((most < C(0.01)) | !moved) && flow_order > 2) {
+        flow_order_ = flow_order - 1;
+    }
 }
 
 } // namespace sivid

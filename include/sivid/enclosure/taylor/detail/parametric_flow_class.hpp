@@ -12,6 +12,7 @@
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/step/detail/kink_steps.hpp>
+#include <sivid/enclosure/step/detail/step_length.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
 #include <sivid/model/series/detail/twofold_arithmetic.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
@@ -156,6 +157,10 @@ public:
         return side_by_side::get(set_.time, lane);
     }
     [[nodiscard]] set_type const& set() const { return set_; }
+    /// About the largest |x_i| so far: what its errors are compared with.
+    [[nodiscard]] C size(std::size_t i) const {
+        return side_by_side::max(set_.largest[i], C(flow_->small(i)));
+    }
     [[nodiscard]] normalised_unknowns const& unknowns(std::size_t lane = 0) const {
         return *lanes_[lane].unknowns;
     }
@@ -221,14 +226,14 @@ private:
 
     [[nodiscard]] C allowed(std::size_t i) const {
         auto const& p = set_.centre[i];
-        return (side_by_side::abs(p.c()[0]) + C(1.0)) * options_.tolerance +
+        return size(i) * options_.tolerance +
                (p.spread() + set_.reach[i]) * options_.relative_tolerance;
     }
     /// What a step across a kink may lose: a small share of what the set spans, besides what is
     /// lost anyway since the slopes differ on its two sides.
     [[nodiscard]] C allowed_at_kink(std::size_t i) const {
         auto const& p = set_.centre[i];
-        return (side_by_side::abs(p.c()[0]) + C(1.0)) * (options_.tolerance * 10) +
+        return size(i) * (options_.tolerance * 10) +
                (p.spread() + set_.reach[i]) * enclosure_detail::kink_share(options_);
     }
     [[nodiscard]] double shortest(std::size_t lane) const {
@@ -242,6 +247,8 @@ private:
     [[nodiscard]] double propose(std::size_t lane, double rest) const;
     [[nodiscard]] double gentle(std::size_t lane, double h) const;
     void adapt_order(mask moved, C const& h, bool clamped);
+    void adapt_flow_order(mask moved, std::size_t order, std::size_t flow_order,
+                          std::vector<C> const& added);
     [[nodiscard]] mask useful(mask lanes);
     void guess_tube(C const& h, std::size_t order);
     /// Bounds what the series of a step over h leave out from the sizes of their coefficients:

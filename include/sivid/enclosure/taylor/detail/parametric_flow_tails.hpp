@@ -36,7 +36,7 @@ parametric_flow<Model, Centre>::carries_well(mask trying, C const& h, std::size_
             added += derivative_tail_.variation(i, c) * set_.reach[c];
         most = side_by_side::max(added / side_by_side::max(allowed(i), set_.reach[i] * 0.01), most);
     }
-    mask const poor = trying & (most > C(1.0)) & (h > C(4 * options_.minimum_step));
+    mask const poor = trying & (most > C(1.0)) & (h > C(4 * options_.shortest_step()));
     if (!side_by_side::any(poor)) return trying;
     if (flow_order < std::min(options_.order, order_)) {
         flow_order_ = flow_order + 1;

@@ -3,11 +3,13 @@
 #define SIVID_MODEL_CHANGE_DETAIL_SMOOTHED_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/graph/graph_range.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,23 +28,20 @@ struct smoothed_model {
 /// those of the result for all measurable inputs w within the bound, and so are its outputs; but
 /// the result can be expanded to high orders: near a kink in steps of its distance, and where the
 /// argument rests at the kink in long ones. Jumps (`sign`) stay what they are.
-/// @param width  \f$ \epsilon \f$ in [1e-100, 1e100], rounded to a power of two: multiples of it
-///               are exact; a millionth of it where no state enters: such an argument is a function
-///               of time, not a set, and what its kink leaves open must not make the sets of other
-///               kinks wide
-/// @throws std::invalid_argument  for another width, whose square may not be exact
+/// @param width_of  \f$ \epsilon \f$ for a node with a kink, in the unit of its argument, rounded
+///               to a power of two: multiples of it are exact; a millionth of it where no state
+///               enters: such an argument is a function of time, not a set, and what its kink
+///               leaves open must not make the sets of other kinks wide. A kink stays where the
+///               width is not in [1e-100, 1e100]: its square may not be exact
 /// @cost  O(nodes)
-[[nodiscard]] inline smoothed_model smoothed(recorded_model const& model, double width) {
-    if (!(width >= 1e-100 && width <= 1e100)) {
-        throw std::invalid_argument("kinks are rounded off over a width between 1e-100 and 1e100, "
-                                    "in the units of their arguments");
-    }
-    double const of_states = std::exp2(std::round(std::log2(width)));
+[[nodiscard]] inline smoothed_model smoothed(recorded_model const& model,
+                                             std::function<double(node const&)> const& width_of) {
     smoothed_model result{model, {}};
     auto& made = result.model;
     made.g = graph();
     made.stated.reset();
-    auto const modulus = [&](node_id x, graph& to) {
+    auto const modulus = [&](node_id x, double width, graph& to) {
+        double const of_states = std::exp2(std::round(std::log2(width)));
         bool const of_time = (to.depends(x) & on_state) == 0;
         double const epsilon = of_time ? of_states * 0x1p-20 : of_states;
         auto const w = to.leaf(operation::input, made.about.inputs.size());
@@ -57,7 +56,9 @@ struct smoothed_model {
         auto const argument = binary ? to.sub(a, b) : a;
         bool const moves = (to.depends(argument) & (on_time | on_state | on_input)) != 0;
         if (!moves || !(binary || n.op == operation::abs)) return same_operation()(n, a, b, to);
-        auto const size = modulus(argument, to);
+        double const width = width_of(n);
+        if (!(width >= 1e-100 && width <= 1e100)) return same_operation()(n, a, b, to);
+        auto const size = modulus(argument, width, to);
         if (!binary) return size;
         auto const sum = to.add(a, b);
         auto const twice = n.op == operation::max ? to.add(sum, size) : to.sub(sum, size);
@@ -76,6 +77,31 @@ struct smoothed_model {
     for (auto& d : made.derived)
         d.value = copy_into(made.g, model.g, {d.value}, same_leaf{}).front();
     return result;
+}
+
+/// The same with one width for all kinks.
+/// @throws std::invalid_argument  for a width beyond [1e-100, 1e100]
+[[nodiscard]] inline smoothed_model smoothed(recorded_model const& model, double width) {
+    if (!(width >= 1e-100 && width <= 1e100)) {
+        throw std::invalid_argument("kinks are rounded off over a width between 1e-100 and 1e100, "
+                                    "in the units of their arguments");
+    }
+    return smoothed(model, [width](node const&) { return width; });
+}
+
+/// The same with a share of how large each argument may be, whatever its unit.
+/// @param at  what states, constants, inputs and the time may be
+[[nodiscard]] inline smoothed_model smoothed(recorded_model const& model, double share,
+                                             leaf_ranges const& at) {
+    auto outputs = model.rate;
+    outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
+    graph_range range(model.g, outputs);
+    range.evaluate(at);
+    return smoothed(model, [&](node const& n) {
+        auto x = range.value(n.a);
+        if (n.op != operation::abs) x = interval_traits<interval>::sub(x, range.value(n.b));
+        return share * mag(x);
+    });
 }
 
 } // namespace sivid

@@ -119,8 +119,8 @@ private:
     }
     void begin(std::size_t e) {
         auto const& own = problem_->experiments[e];
-        runs_[e] = std::make_unique<paving_detail::doubleton_continuation>(*flows_[e], own.begin,
-                                                                           options_);
+        runs_[e] = std::make_unique<paving_detail::doubleton_continuation>(
+            *flows_[e], own.begin, paving_detail::steps_for(own, options_));
         time_[e] = own.begin;
         (void)runs_[e]->begin(starts_[e], parameters_);
     }

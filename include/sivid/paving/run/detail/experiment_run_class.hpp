@@ -72,25 +72,24 @@ namespace paving_detail {
     return unknowns > 0 && options.degree > 0 ? options.degree : suggested_degree(unknowns);
 }
 
-/// The steps of an experiment, relative to what it lasts (`for_span`).
+/// The steps of an experiment, relative to what it lasts (`for_span`): until its last measurement,
+/// or as long as its inputs are known, while there is none.
 ///   A smallest step that is not much shorter than the pieces of an input ends runs that only have
 /// to start gently after each knot: then every piece may take 500 steps. Samples that nearly
 /// coincide do not count.
 [[nodiscard]] inline enclosure_options steps_for(experiment const& e, enclosure_options options) {
-    double const lasts = e.end() - e.begin;
-    double const unit = lasts > 0 ? std::min(1.0, lasts) : 1.0;
-    options = for_span(std::move(options), lasts);
-    double shortest = detail::infinity;
+    double shortest = detail::infinity, known = e.begin;
     for (auto const& input : e.inputs) {
         auto const* u = std::get_if<sampled_signal>(&input);
         if (u == nullptr) continue;
+        known = std::max(known, u->times().back());
         for (std::size_t k = 1; k < u->times().size(); ++k) {
             shortest = std::min(shortest, u->times()[k] - u->times()[k - 1]);
         }
     }
-    if (shortest < 40 * options.minimum_step)
-        options.minimum_step =
-            std::min(options.minimum_step, std::max(shortest / 500, 1e-6 * unit));
+    options = for_span(std::move(options), (e.end() > e.begin ? e.end() : known) - e.begin);
+    if (double const piece = shortest / options.span; piece < 40 * options.minimum_step)
+        options.minimum_step = std::min(options.minimum_step, std::max(piece / 500, 1e-7));
     return options;
 }
 

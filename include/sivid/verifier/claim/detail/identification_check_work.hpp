@@ -181,7 +181,7 @@ private:
         auto const w = witness_point(fault);
         if (!w) return {"witness", outcome::refuted, fault};
         enclosure_options fine{
-            .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-6};
+            .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-7};
         fine.keep_going = limit_;
         check_finding result{"witness", outcome::verified, ""};
         std::size_t samples = 0;

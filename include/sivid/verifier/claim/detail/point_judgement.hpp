@@ -23,7 +23,7 @@ template <class I>
         starts.push_back(point_within(problem.experiments[e].initial, f.starts[e]));
     }
     enclosure_options const fine{
-        .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-6};
+        .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-7};
     proved_campaign<I> campaign(problem, std::move(starts), fine);
     auto const p = point_box(f.parameters);
     return campaign.judge(campaign.learn(p, false), p);

@@ -14,7 +14,7 @@ struct certificate_options : enclosure_options {
         : enclosure_options{.order = 10,
                             .tolerance = 1e-9,
                             .relative_tolerance = 1e-3,
-                            .minimum_step = 1e-4,
+                            .minimum_step = 1e-5,
                             .maximum_steps = 4000,
                             .widest = 1.0} {}
 
