@@ -345,6 +345,11 @@ private:
             result = A::neg(result);
             return;
         case operation::pown:
+            if (is_squared_power(i.index)) {
+                accumulator total(result);
+                square(total, i.companion, k, 0);
+                return total.result_into(result);
+            }
             weighted(a, i.companion, k, k, result);
             result = A::mul(A::point(i.index), result);
             return over(result, k, result);

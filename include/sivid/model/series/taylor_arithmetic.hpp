@@ -106,10 +106,8 @@ struct taylor_arithmetic {
         return mul(a, reciprocal(b, undefined));
     }
     static value_type sqr(value_type const& a) { return mul(a, a); }
-    static value_type pown(value_type const& a, int n, mask&) {
-        value_type result = point(1.0);
-        for (int k = 0; k < n; ++k) result = mul(result, a);
-        return result;
+    static value_type pown(value_type const& a, int n, mask& undefined) {
+        return model_detail::power_by_products<taylor_arithmetic>(a, n, undefined);
     }
     static value_type sqrt(value_type const& a, mask& undefined) {
         return sivid::sqrt(a, undefined);
