@@ -31,6 +31,8 @@ public:
     /// A box that contains all states, or channels, at a time within the proved span.
     [[nodiscard]] virtual box at(double t) const = 0;
     [[nodiscard]] virtual box observe_at(double t) const = 0;
+    /// A box that contains all states at all times in [from, to], a part of one span.
+    [[nodiscard]] virtual box over(double from, double to) const = 0;
 };
 
 /// All trajectories of a family, enclosed: the `tube` that `integrate` proves over intervals of
@@ -66,9 +68,11 @@ public:
     /// A box that contains all channels at time t; an entire side for one that is not defined.
     /// @throws std::out_of_range  outside the proved span
     [[nodiscard]] box observe_at(double t) const;
-    /// A box that contains all states at all times in [from, to].
+    /// A box that contains all states at all times in [from, to]: of whole spans what they say, of
+    /// a part of one what steps of its own sweep.
     /// @throws std::out_of_range  outside the proved span
     /// @throws std::invalid_argument  for a span that ends before it begins
+    /// @cost  that of `at` for each end that lies inside a span
     [[nodiscard]] box over(double from, double to) const;
     /// The proved steps themselves.
     /// @throws std::logic_error  where other sets than those of first order were carried

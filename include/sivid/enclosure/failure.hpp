@@ -124,6 +124,7 @@ struct domain_edge {
     bool derivative = false; ///< the rate is defined, a derivative of it is not
     operation function = operation::div;
     double lower = 0, upper = 0; ///< the argument; of a quotient: the denominator
+    std::string formula = {};    ///< of the argument, where it is short
 
     [[nodiscard]] std::string text() const;
 };

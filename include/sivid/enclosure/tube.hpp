@@ -60,14 +60,21 @@ public:
     /// A box that contains all states at time t.
     [[nodiscard]] basic_box<I> at(double t) const { return set_at(t).hull; }
 
-    /// A box that contains all states at all times in [from, to].
+    /// A box that contains all states at all times in [from, to]: of whole steps what they swept,
+    /// of a part of a step what steps of its own sweep.
+    /// @throws std::out_of_range outside [begin_time, end_time]
+    /// @cost  that of one step for each end that lies inside a step
     [[nodiscard]] basic_box<I> over(double from, double to) const {
         if (!(from <= to))
             throw std::invalid_argument("tube: a span must not end before it begins");
+        if (from == to) return at(from);
         basic_box<I> result = hull(at(from), at(to));
         for (auto const& step : steps_) {
             if (step.to <= from || step.from >= to) continue;
-            result = hull(result, step.swept);
+            bool const whole = step.from >= from && step.to <= to;
+            result = hull(result,
+                          whole ? step.swept
+                                : swept_in(step, std::max(from, step.from), std::min(to, step.to)));
         }
         return result;
     }
@@ -87,6 +94,21 @@ public:
     }
 
 private:
+    /// What is swept from one time of a step to another, by short steps from the set at the first;
+    /// where such are not proved, by all of it.
+    [[nodiscard]] basic_box<I> swept_in(tube_step<I> const& step, double from, double to) const {
+        auto set = from == step.from ? step.start : stepper_->advance(step, from);
+        basic_box<I> result = set.hull;
+        stepper_->set_ensemble(*ensemble_); // what was asked before has no say in the next steps
+        while (set.time < to) {
+            enclosure_failure why;
+            auto const part = stepper_->prove(set, to, why);
+            if (!part) return step.swept;
+            result = hull(result, part->swept);
+            set = stepper_->finish(*part);
+        }
+        return intersect(result, step.swept);
+    }
     /// The step with from < t <= to, or the first one at the begin.
     /// @throws std::out_of_range outside [begin_time, end_time], and without a step
     [[nodiscard]] tube_step<I> const& step_at(double t) const {

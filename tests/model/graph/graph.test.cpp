@@ -186,7 +186,7 @@ TEST_CASE("a graph keeps operands before their users") {
     }
 }
 
-TEST_CASE("powers have an exponent above 2, whose recurrence reads the next lower one") {
+TEST_CASE("powers have an exponent above 2, whose recurrence reads a lower one") {
     graph g;
     expression const x(g, g.leaf(operation::state, 0));
     expression const root = sqrt(x);
@@ -202,6 +202,14 @@ TEST_CASE("powers have an exponent above 2, whose recurrence reads the next lowe
         if (n.op != operation::pown) continue;
         CHECK(n.index > 2);
         CHECK(n.companion == g.pown(n.a, n.index - 1));
+    }
+    // Of large ones it is the half power: the nodes of a power grow with its logarithm.
+    for (int const n : {20, 999, 1000, 1023, most_power}) {
+        auto const before = g.size();
+        auto const y = g.pown(g.leaf(operation::state, 1), n);
+        CHECK(g.size() - before <= 2 * std::log2(n) + 8);
+        auto const half = g[y].companion;
+        CHECK((g[half].index == n - 1 || 2 * g[half].index == n));
     }
 }
 

@@ -71,6 +71,17 @@ public:
         }
         return seen;
     }
+    [[nodiscard]] box over(double from, double to) const override {
+        auto const& whole = swept_at(to);
+        auto const run = run_to(from);
+        if (!run) return whole;
+        auto result = run->set().hull();
+        while (run->time() < to) {
+            if (!run->step(to)) return whole;
+            result = hull(result, run->swept());
+        }
+        return intersect(result, whole);
+    }
 
 private:
     /// Sets that are kept at most; when there are more, every second one is left out.

@@ -9,6 +9,7 @@
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/enclosure/tube.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -34,9 +35,15 @@ SIVID_DECL box enclosed_motion::observe_at(double t) const {
 SIVID_DECL box enclosed_motion::over(double from, double to) const {
     if (!(from <= to))
         throw std::invalid_argument("enclosed_motion: a span must not end before it begins");
+    if (tube_) return tube_->over(from, to);
+    if (from == to) return at(from);
     auto result = hull(at(from), at(to));
     for (auto const& span : spans_) {
-        if (span.from < to && span.to > from) result = hull(result, span.states);
+        if (span.to <= from || span.from >= to) continue;
+        bool const whole = span.from >= from && span.to <= to;
+        result =
+            hull(result, whole ? span.states
+                               : between_->over(std::max(from, span.from), std::min(to, span.to)));
     }
     return result;
 }

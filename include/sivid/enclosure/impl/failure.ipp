@@ -17,7 +17,7 @@ SIVID_DECL std::string domain_edge::text() const {
     std::string const of =
         function == operation::div ? "division by" : std::string(name(function)) + " of";
     return of + " a value in [" + short_text(lower) + ", " + short_text(upper) + "]" +
-           (derivative ? ", in a derivative" : "");
+           (derivative ? ", in a derivative" : "") + (formula.empty() ? "" : ": " + formula);
 }
 
 SIVID_DECL std::string enclosure_failure::message(std::string_view state) const {

@@ -6,10 +6,12 @@
 #include <sivid/enclosure/flow.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/model/graph/arithmetic.hpp>
+#include <sivid/model/graph/detail/formula_text.hpp>
 #include <sivid/model/graph/program.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -17,8 +19,22 @@
 
 namespace sivid {
 
+namespace enclosure_detail {
+/// What the leaves of a flow's graph are called in its model.
+[[nodiscard]] inline leaf_names names_in(bound_model const& model) {
+    leaf_names names;
+    for (auto const c : model.parameters) names.constants.push_back(model.about.constants[c].name);
+    for (auto const& x : model.about.states) names.states.push_back(x.name);
+    for (auto const& u : model.about.inputs) names.inputs.push_back(u.name);
+    return names;
+}
+/// Longer formulas are no help in a message.
+inline constexpr double longest_formula = 24;
+} // namespace enclosure_detail
+
 /// The first function, in the order of the states and of evaluation, that is not defined on a set
-/// of states: in a rate, or else in a derivative of one.
+/// of states: in a rate, or else in a derivative of one. Its argument leaves the domain both as a
+/// value of T and as an interval, which knows that a square or an exponential is never negative.
 /// @tparam T      intervals or Taylor models: sees what a series in T sees
 /// @param start   selects the pieces of sampled inputs
 /// @param times   the times that belong to the states
@@ -34,16 +50,25 @@ find_domain_edge(flow const& f, Start const& start, T const& times, States const
     auto const& g = model.g;
     input_pieces<T> const inputs(f, start, times);
     auto const all = program::marked(g, std::vector<bool>(g.size(), true));
-    auto value = all.template memory<A>();
-    all.read(value, [&](operation op, std::size_t index) -> T {
+    auto const leaf = [&](operation op, std::size_t index) -> T {
         return op == operation::time       ? times
                : op == operation::state    ? T(x[index])
                : op == operation::constant ? T(parameters[index])
                                            : T(inputs(index, 0));
+    };
+    auto value = all.template memory<A>();
+    all.read(value, leaf);
+    using plain = proven_arithmetic<interval>;
+    auto natural = all.template memory<plain>();
+    all.read(natural, [&](operation op, std::size_t index) {
+        auto const [lower, upper] = bounds(leaf(op, index));
+        return lower <= upper ? plain::bounds(lower, upper) : plain::entire(); // NaN
     });
     std::vector<bool> leaves(g.size(), false); // its domain
+    all.template run<plain>(
+        natural, [&](program::step const& s, bool undefined) { leaves[s.target] = undefined; });
     all.template run<A>(value, [&](program::step const& s, typename A::mask const& undefined) {
-        leaves[s.target] = is_set(undefined);
+        leaves[s.target] = leaves[s.target] && is_set(undefined);
     });
     for (bool const derivative : {false, true}) {
         for (std::size_t i = 0; i < f.states(); ++i) {
@@ -56,8 +81,18 @@ find_domain_edge(flow const& f, Start const& start, T const& times, States const
             for (std::size_t k = 0; k < g.size(); ++k) {
                 if (!needed[k] || !leaves[k]) continue;
                 auto const& n = g[static_cast<node_id>(k)];
-                auto const [lower, upper] = bounds(value[n.op == operation::div ? n.b : n.a]);
-                return domain_edge{i, derivative, n.op, lower, upper};
+                auto const argument = n.op == operation::div ? n.b : n.a;
+                auto const [lower, upper] = bounds(value[argument]);
+                auto const& plainly = natural[argument];
+                auto const names = enclosure_detail::names_in(model);
+                return domain_edge{i,
+                                   derivative,
+                                   n.op,
+                                   std::max(plainly.lower(), lower),
+                                   std::min(plainly.upper(), upper),
+                                   is_short(g, argument, names, enclosure_detail::longest_formula)
+                                       ? formula_text(g, argument, names)
+                                       : ""};
             }
         }
     }

@@ -128,6 +128,7 @@ public:
             }
         }
         jumped_ = series_.jumped();
+        undefined_ = series_.undefined();
     }
 
     /// The coefficients 0 .. order of V in addition, after `expand` of at least that order.
@@ -181,6 +182,11 @@ public:
         return series_.output(e.output, 0);
     }
     [[nodiscard]] typename arithmetic::mask undefined() const { return series_.undefined(); }
+    /// The rates are defined, but a derivative of them that V needs is not, as of a root at 0: all
+    /// solutions, unique or not, stay where the rates are bounded.
+    [[nodiscard]] typename arithmetic::mask steep() const {
+        return series_.undefined() & !undefined_;
+    }
     [[nodiscard]] typename arithmetic::mask kinked() const { return series_.kinked(); }
     /// The right-hand side itself may jump within the last `expand` (not its Jacobian).
     [[nodiscard]] typename arithmetic::mask jumped() const { return jumped_; }
@@ -240,7 +246,7 @@ private:
     typename storage::type x_;
     typename storage::type v_;
     [[no_unique_address]] typename enclosure_detail::columns_of<T>::type columns_at_once_;
-    typename arithmetic::mask jumped_{};
+    typename arithmetic::mask jumped_{}, undefined_{}; ///< of the rates, after the last `expand`
 };
 
 } // namespace sivid

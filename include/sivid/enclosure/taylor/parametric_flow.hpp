@@ -287,8 +287,9 @@ parametric_flow<Model, Centre>::advance(C const& limit) {
     if (stale_ || smooth != smooth_) expand(order);
     if (expanded_ != flow_order) expand_flow(flow_order);
 
-    mask undefined = centre_.undefined();
-    undefined |= derivative_.undefined();
+    mask undefined = derivative_.undefined();
+    undefined &= !derivative_.steep();
+    undefined |= centre_.undefined();
     undefined &= trying;
     for (std::size_t l = 0; l < width && side_by_side::any(undefined); ++l) {
         if (!side_by_side::test(undefined, l)) continue;
@@ -306,8 +307,11 @@ parametric_flow<Model, Centre>::advance(C const& limit) {
         double const end = std::min(side_by_side::get(limit, l), flow_->next_knot(from));
         double const rest = end - from;
         if (lane.attempts == 0) {
-            double const length = propose(l, rest);
-            lane.next = smooth ? gentle(l, length) : length;
+            // Where the set touches a root of 0, the centre's coefficients say nothing of a step.
+            bool const steep = smooth && side_by_side::test(derivative_.steep(), l);
+            double const length =
+                steep ? std::min(options_.longest_step(), rest) : propose(l, rest);
+            lane.next = smooth && !steep ? gentle(l, length) : length;
             lane.held = lane.next < length;
             if (lane.held)
                 lane.next = std::min(lane.next, std::max(0.5 * rest, options_.shortest_step()));

@@ -50,6 +50,23 @@ private:
     value_type sum_ = A::point(0.0);
 };
 
+namespace model_detail {
+/// \f$ a^n \f$ by squaring: at most 2 log2 |n| products, and a division for n < 0.
+template <class A>
+typename A::value_type power_by_products(typename A::value_type a, int n,
+                                         typename A::mask& undefined) {
+    auto k = n < 0 ? 0u - static_cast<unsigned>(n) : static_cast<unsigned>(n);
+    if (k == 0) return A::point(1.0);
+    for (; k % 2 == 0; k /= 2) a = A::sqr(a);
+    auto result = a;
+    while (k /= 2) {
+        a = A::sqr(a);
+        if (k % 2 == 1) result = A::mul(result, a);
+    }
+    return n < 0 ? A::div(A::point(1.0), result, undefined) : result;
+}
+} // namespace model_detail
+
 /// Plain floating point behind the names of `interval_traits`: simulation and fitting run the same
 /// graph as the proofs. Nothing computed with it is a proof.
 struct approximate_arithmetic {
@@ -72,13 +89,8 @@ struct approximate_arithmetic {
     static double div(double a, double b, bool&) { return a / b; }
     static double over(double a, std::size_t k) { return a / static_cast<double>(k); }
     static double sqr(double a) { return a * a; }
-    static double pown(double a, int n, bool&) {
-        double result = 1;
-        auto k = n < 0 ? 0u - static_cast<unsigned>(n) : static_cast<unsigned>(n);
-        for (; k > 0; k /= 2, a *= a) {
-            if (k % 2 == 1) result *= a;
-        }
-        return n < 0 ? 1 / result : result;
+    static double pown(double a, int n, bool& undefined) {
+        return model_detail::power_by_products<approximate_arithmetic>(a, n, undefined);
     }
     static double sqrt(double a, bool&) { return std::sqrt(a); }
     static double exp(double a) { return std::exp(a); }

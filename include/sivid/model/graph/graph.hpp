@@ -21,8 +21,8 @@ namespace sivid {
 
 using node_id = std::uint32_t;
 
-/// Larger powers are neither recorded nor multiplied out: they have a node for each lower one, and
-/// sums of powers have to stay far from overflow.
+/// Larger powers are neither recorded nor multiplied out: sums of powers have to stay far from
+/// overflow.
 inline constexpr int most_power = 1 << 20;
 
 /// One operation of a recorded model. Operands stand before their users in the graph.

@@ -4,6 +4,7 @@
 
 #include <sivid/model/graph/arithmetic.hpp>
 #include <sivid/model/graph/tape.hpp>
+#include <sivid/model/series/detail/first_coefficient.hpp>
 #include <sivid/model/series/detail/series_storage.hpp>
 
 #include <cstddef>
@@ -32,7 +33,7 @@ public:
         : program_(&program),
           stride_(max_order + 1),
           place_(program.slots()),
-          reciprocal_(storage::make(arithmetic::keeps_reciprocals ? program.slots() : 0, values)) {
+          first_(program, values) {
         std::size_t next = 0;
         for (std::size_t slot = 0; slot < program.slots(); ++slot) {
             bool const all = program.keeps_history(slot);
@@ -74,13 +75,15 @@ public:
     void set_parameters(Box const& p) {
         constant_ = flags{};
         rest_constant_ = flags{};
+        first_.forget(true);
+        auto const none = [](instruction const&) { return T(arithmetic::point(0.0)); };
         for (std::size_t n = 0; n < program_->constant().size(); ++n) {
             auto const& i = program_->constant()[n];
             auto& report = n < program_->principal_constant() ? constant_ : rest_constant_;
             if (i.op == operation::constant) {
                 at(i.target, 0) = p[static_cast<std::size_t>(i.index)];
             } else {
-                at(i.target, 0) = value(i, report.undefined);
+                at(i.target, 0) = value(false, n, none, report.undefined);
             }
             if (i.op == operation::sign) report.jumped |= jumps(i);
         }
@@ -91,6 +94,7 @@ public:
         time_ = t;
         time_slope_ = slope;
         now_ = constant_;
+        first_.forget(false);
     }
     /// Computes coefficient k of everything that varies.
     /// @param state  (i, k) -> coefficient k of state i
@@ -134,6 +138,11 @@ private:
     template <class State, class Input>
     void advance(std::size_t first, std::size_t last, std::size_t k, State const& state,
                  Input const& input) {
+        auto const leaf = [&](instruction const& i) -> T {
+            auto const index = static_cast<std::size_t>(i.index);
+            if (i.op == operation::time) return time_;
+            return i.op == operation::state ? T(state(index, 0)) : T(input(index, 0));
+        };
         for (std::size_t n = first; n < last; ++n) {
             auto const& i = program_->varying()[n];
             auto& result = at(i.target, k);
@@ -158,7 +167,7 @@ private:
                     convolve(total, i.a, i.b, k, 0, k);
                     total.result_into(result);
                 } else if (k == 0) {
-                    result = value(i, now_.undefined);
+                    result = value(true, n, leaf, now_.undefined);
                 } else {
                     higher(i, k, result);
                 }
@@ -182,30 +191,16 @@ private:
         return arithmetic::sign_of(get(i.a, 0)).neither;
     }
 
-    T value(instruction const& i, mask& undefined) {
-        if constexpr (arithmetic::keeps_reciprocals) {
-            auto& inverse = reciprocal_[i.target];
-            auto const invert = [&](T const& b) { return arithmetic::reciprocal(b, undefined); };
-            switch (i.op) {
-            case operation::div:
-                inverse = invert(get(i.b, 0));
-                return arithmetic::mul(get(i.a, 0), inverse);
-            case operation::sqrt: {
-                auto const y = arithmetic::sqrt(get(i.a, 0), undefined);
-                inverse = invert(arithmetic::mul(number(2), y));
-                return y;
-            }
-            case operation::log:
-                inverse = invert(get(i.a, 0));
-                break;
-            case operation::atan:
-                inverse = invert(get(i.companion, 0));
-                break;
-            default:
-                break;
-            }
-        }
-        return apply<arithmetic>(i.op, get(i.a, 0), get(i.b, 0), i.index, undefined);
+    /// Coefficient 0 of instruction n of what varies, or of what does not.
+    /// @param leaf  (instruction) -> coefficient 0 of time, a state or an input
+    template <class Leaf>
+    T value(bool varies, std::size_t n, Leaf const& leaf, mask& undefined) {
+        auto const first = [this](std::size_t slot) -> T const& { return get(slot, 0); };
+        auto const before = [&](auto& ranges) {
+            ranges.evaluate(*program_, varies, n, leaf, first);
+        };
+        auto const& i = (varies ? program_->varying() : program_->constant())[n];
+        return first_.value(i, first, before, undefined);
     }
 
     using accumulator = typename arithmetic::accumulator;
@@ -291,14 +286,9 @@ private:
             result = arithmetic::mul(a, b);
         }
     }
-    /// a divided by coefficient 0 of a slot, or of twice it.
-    void divide(T const& a, instruction const& i, std::size_t slot, T& result, bool twice = false) {
-        if constexpr (arithmetic::keeps_reciprocals) {
-            multiply(a, reciprocal_[i.target], result);
-        } else {
-            auto const& b = get(slot, 0);
-            result = arithmetic::div(a, twice ? arithmetic::mul(number(2), b) : b, now_.undefined);
-        }
+    /// a divided by coefficient 0 of a slot; of a root by twice it.
+    void divide(T const& a, instruction const& i, std::size_t slot, T& result) {
+        first_.divide(a, i, get(slot, 0), result, now_.undefined);
     }
 
     void higher(instruction const& i, std::size_t k, T& result) {
@@ -326,7 +316,12 @@ private:
             accumulator rest;
             rest.add(get(a, k));
             square(rest, y, k, 1, -1);
-            return divide(rest.result(), i, y, result, true);
+            mask edge{}; // at 0 a root has a value, but no derivative
+            first_.divide(rest.result(), i, get(y, 0), result, edge);
+            if (edge == mask{}) return;
+            now_.kinked |= edge;
+            result = A::select(edge, A::point(0.0), result);
+            return;
         }
         case operation::exp:
             return mean(a, y, k, k, result);
@@ -345,6 +340,11 @@ private:
             result = A::neg(result);
             return;
         case operation::pown:
+            if (is_squared_power(i.index)) {
+                accumulator total(result);
+                square(total, i.companion, k, 0);
+                return total.result_into(result);
+            }
             weighted(a, i.companion, k, k, result);
             result = A::mul(A::point(i.index), result);
             return over(result, k, result);
@@ -384,7 +384,7 @@ private:
     };
     std::vector<place> place_;
     typename storage::type c_;
-    typename storage::type reciprocal_; ///< of divisors, where the arithmetic keeps it
+    first_coefficient<T> first_;
     T time_ = arithmetic::point(0.0);
     T time_slope_ = arithmetic::point(1.0);
     [[no_unique_address]]

@@ -99,32 +99,53 @@ struct taylor_arithmetic {
         sum.add(a, b);
         sum.finish();
     }
+    /// The functions that are not defined everywhere take bounds of the argument besides, asked for
+    /// where its polynomial leaves the domain: see `slot_ranges`.
+    /// @param known  () -> `value_bounds<C>`
+    template <class Known>
+    static value_type reciprocal(value_type const& a, mask& undefined, Known const& known) {
+        return settled(univariate::reciprocal, a, known, undefined,
+                       [&a](mask& lost) { return sivid::reciprocal(a, lost); });
+    }
+    template <class Known>
+    static value_type sqrt(value_type const& a, mask& undefined, Known const& known) {
+        return settled(univariate::sqrt, a, known, undefined,
+                       [&a](mask& lost) { return sivid::sqrt(a, lost); });
+    }
+    template <class Known>
+    static value_type log(value_type const& a, mask& undefined, Known const& known) {
+        return settled(univariate::log, a, known, undefined,
+                       [&a](mask& lost) { return sivid::apply(univariate::log, a, lost); });
+    }
+    template <class Known>
+    static value_type tan(value_type const& a, mask& undefined, Known const& known) {
+        return settled(univariate::tan, a, known, undefined,
+                       [&a](mask& lost) { return sivid::apply(univariate::tan, a, lost); });
+    }
     static value_type reciprocal(value_type const& a, mask& undefined) {
-        return sivid::reciprocal(a, undefined);
+        return reciprocal(a, undefined, own_bounds(a));
     }
     static value_type div(value_type const& a, value_type const& b, mask& undefined) {
         return mul(a, reciprocal(b, undefined));
     }
     static value_type sqr(value_type const& a) { return mul(a, a); }
-    static value_type pown(value_type const& a, int n, mask&) {
-        value_type result = point(1.0);
-        for (int k = 0; k < n; ++k) result = mul(result, a);
-        return result;
+    static value_type pown(value_type const& a, int n, mask& undefined) {
+        return model_detail::power_by_products<taylor_arithmetic>(a, n, undefined);
     }
     static value_type sqrt(value_type const& a, mask& undefined) {
-        return sivid::sqrt(a, undefined);
+        return sqrt(a, undefined, own_bounds(a));
     }
     static value_type exp(value_type const& a) {
         mask undefined{};
         return sivid::apply(univariate::exp, a, undefined);
     }
     static value_type log(value_type const& a, mask& undefined) {
-        return sivid::apply(univariate::log, a, undefined);
+        return log(a, undefined, own_bounds(a));
     }
     static value_type sin(value_type const& a) { return everywhere(univariate::sin, a); }
     static value_type cos(value_type const& a) { return everywhere(univariate::cos, a); }
     static value_type tan(value_type const& a, mask& undefined) {
-        return sivid::apply(univariate::tan, a, undefined);
+        return tan(a, undefined, own_bounds(a));
     }
     static value_type atan(value_type const& a) { return everywhere(univariate::atan, a); }
     static value_type tanh(value_type const& a) { return everywhere(univariate::tanh, a); }
@@ -143,6 +164,8 @@ struct taylor_arithmetic {
         s.neither = !(s.positive | s.negative);
         return s;
     }
+    /// Where nothing is known.
+    static mask unknown(value_type const& a) { return !(a.norm() < C(value_type::largest)); }
     static value_type select(mask m, value_type const& a, value_type const& b) {
         return sivid::select(m, a, b);
     }
@@ -204,6 +227,18 @@ private:
         auto result = of_values(bounds(models)...);
         result.give_up_when_huge(result.norms()[0]);
         return result;
+    }
+    static auto own_bounds(value_type const& a) {
+        return [&a] { return bounds(a); };
+    }
+    /// A function by its polynomial, or by what is known of the argument where that is lost.
+    template <class Known, class Usual>
+    static value_type settled(univariate f, value_type const& a, Known const& known,
+                              mask& undefined, Usual const& usual) {
+        mask lost{};
+        auto result = usual(lost);
+        if (!side_by_side::any(lost)) return result;
+        return apply_between(f, a, known(), lost, std::move(result), undefined);
     }
     /// A bounded function: its range is the answer where the polynomial fails.
     static value_type everywhere(univariate f, value_type const& a) {

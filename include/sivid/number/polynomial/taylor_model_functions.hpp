@@ -59,27 +59,23 @@ taylor_model<C> relative_deviation(taylor_model<C> const& s, C const& factor) {
 }
 
 /// f(s) as a near-minimax polynomial of s, of the degree that leaves least unknown, or as its
-/// range, in lanes where that is less than what a Taylor polynomial leaves and a tenth of what f(s)
-/// spans: over wide ranges of functions that saturate it is by far.
-/// @param usual  encloses f(s)
-/// @param good   the lanes where f is smooth
+/// range: in each of some lanes the least of these and `best`.
+/// @param best    encloses f(s)
+/// @param values  bounds of s in these lanes, whatever they are known from
 template <class C, class Mask>
-taylor_model<C> sharper(univariate f, taylor_model<C> const& s, taylor_model<C> usual,
-                        Mask const& good) {
+taylor_model<C> sharpest(univariate f, taylor_model<C> const& s, taylor_model<C> best,
+                         Mask const& lanes, value_bounds<C> const& values) {
     using model = taylor_model<C>;
+    using traits = interval_traits<interval>;
     using side_by_side = lane_traits<C>;
-    if (s.is_constant()) return usual;
-    // The share of s that is lost is lost of f(s) in any case.
-    auto const poor =
-        good & (usual.r() * s.spread() > usual.spread() * (s.spread() * 0.1 + s.r() * 1.5));
-    if (!side_by_side::any(poor)) return usual;
-    auto const values = bounds(s);
     C const none(std::numeric_limits<double>::infinity());
     C middle{}, half = none; // of the range of f
     scratch<interval> range(side_by_side::count);
     for (std::size_t l = 0; l < side_by_side::count; ++l) {
-        if (!side_by_side::test(poor, l)) continue;
-        range[l] = interval(side_by_side::get(values.lower, l), side_by_side::get(values.upper, l));
+        if (!side_by_side::test(lanes, l)) continue;
+        double const lower = side_by_side::get(values.lower, l);
+        double const upper = side_by_side::get(values.upper, l);
+        range[l] = lower <= upper ? traits::bounds(lower, upper) : traits::entire(); // NaN
         bool undefined = false;
         interval y;
         taylor_coefficients(f, range[l], 0, &y, undefined);
@@ -90,13 +86,14 @@ taylor_model<C> sharper(univariate f, taylor_model<C> const& s, taylor_model<C> 
     auto t = s;
     t.c(0) = 0.0;
     t.norms()[0] = 0.0;
-    auto best = std::move(usual);
-    for (auto d = std::min<std::size_t>(s.degree(), most_near_minimax_degree); d > 0; --d) {
+    auto const degree =
+        s.is_constant() ? 0 : std::min<std::size_t>(s.degree(), most_near_minimax_degree);
+    for (auto d = degree; d > 0; --d) {
         scratch<C> coefficient(d + 1);
         std::fill_n(coefficient.data(), d + 1, C(0.0));
         C off = none;
         for (std::size_t l = 0; l < side_by_side::count; ++l) {
-            if (!side_by_side::test(poor, l)) continue;
+            if (!side_by_side::test(lanes, l)) continue;
             near_minimax const p(f, side_by_side::get(s.c(0), l), range[l], d);
             if (!std::isfinite(p.error())) continue;
             for (std::size_t k = 0; k <= d; ++k) side_by_side::put(coefficient[k], l, p[k]);
@@ -108,6 +105,22 @@ taylor_model<C> sharper(univariate f, taylor_model<C> const& s, taylor_model<C> 
         best = select(sum.r() < best.r(), std::move(sum), best);
     }
     return select(half < best.r(), widened(model::constant(middle), half), best);
+}
+
+/// The same in lanes where that is less than what a Taylor polynomial leaves and a tenth of what
+/// f(s) spans: over wide ranges of functions that saturate it is by far.
+/// @param usual  encloses f(s)
+/// @param good   the lanes where f is smooth
+template <class C, class Mask>
+taylor_model<C> sharper(univariate f, taylor_model<C> const& s, taylor_model<C> usual,
+                        Mask const& good) {
+    using side_by_side = lane_traits<C>;
+    if (s.is_constant()) return usual;
+    // The share of s that is lost is lost of f(s) in any case.
+    auto const poor =
+        good & (usual.r() * s.spread() > usual.spread() * (s.spread() * 0.1 + s.r() * 1.5));
+    if (!side_by_side::any(poor)) return usual;
+    return sharpest(f, s, std::move(usual), poor, bounds(s));
 }
 
 } // namespace number_detail
@@ -276,6 +289,22 @@ template <class C>
     }
     number_detail::forget(!good, result);
     undefined |= !good;
+    return result;
+}
+
+/// f(s) in lanes where s is known to lie between bounds that do not follow from its polynomial: of
+/// a square, an absolute value or an exponential a polynomial may fall below 0, its values do not.
+/// @param usual      what is said of f(s) in the other lanes
+/// @param undefined  gets the lanes, of these, where f is not defined between the bounds
+template <class C>
+[[nodiscard]] taylor_model<C>
+apply_between(univariate f, taylor_model<C> const& s, value_bounds<C> const& known,
+              typename lane_traits<C>::mask const& lanes, taylor_model<C> usual,
+              typename lane_traits<C>::mask& undefined) {
+    C const none(std::numeric_limits<double>::infinity());
+    number_detail::forget(lanes, usual);
+    auto result = number_detail::sharpest(f, s, std::move(usual), lanes, known);
+    undefined |= lanes & !(result.r() < none);
     return result;
 }
 

@@ -10,7 +10,7 @@
 namespace sivid {
 
 /// Functions of one variable whose Taylor coefficients are known here.
-enum class univariate { exp, log, sin, cos, tan, atan, tanh, sech_squared };
+enum class univariate { exp, log, sin, cos, tan, atan, tanh, sech_squared, reciprocal, sqrt };
 
 /// Encloses \f$ f^{(k)}(x)/k! \f$ for k = 0 .. order at every x in the interval.
 /// @param y          gets the order + 1 enclosures
@@ -78,6 +78,17 @@ inline void taylor_coefficients(univariate f, interval const& x, std::size_t ord
         }
         break;
     }
+    case univariate::reciprocal: // (-1)^k / x^(k+1)
+        y[0] = T::div(T::point(1.0), x, undefined);
+        for (std::size_t k = 1; k <= order; ++k) y[k] = T::neg(T::mul(y[k - 1], y[0]));
+        break;
+    case univariate::sqrt: // y_k = y_{k-1} (3/2 - k) / (k x)
+        y[0] = T::sqrt(x, undefined);
+        for (std::size_t k = 1; k <= order; ++k) {
+            auto const factor = T::point(1.5 - static_cast<double>(k));
+            y[k] = over(T::div(T::mul(y[k - 1], factor), x, undefined), k);
+        }
+        break;
     }
 }
 

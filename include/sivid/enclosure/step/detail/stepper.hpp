@@ -68,6 +68,11 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         return refuse(why, failure_reason::undefined, set, from, point_box<I>(set.centre));
     }
     double h = propose(limit, from, x);
+    if (h < enclosure_detail::resting_step(options_)) {
+        // Where the set touches a root of 0, the centre's coefficients say nothing of a step.
+        start_.expand_with_variations(from, begin, x, 1);
+        if (start_.steep()) h = std::min(options_.longest_step(), limit - from);
+    }
     bool cut = near_ < h; // by a kink: the length says nothing about smooth steps
     if (cut) h = near_;
     double const proposed = h;
@@ -99,7 +104,9 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             start_order = step.variational_order;
             start_.expand_with_variations(from, begin, x, start_order);
         }
-        if (start_.undefined()) return refuse(why, failure_reason::undefined, set, from, x);
+        if (start_.undefined() && !start_.steep())
+            return refuse(why, failure_reason::undefined, set, from, x);
+        bool became_rough = smooth && start_.steep();
         I const length = span(from, to);
         I const range = traits::bounds(0.0, traits::upper(length));
         I const times = traits::bounds(from, to);
@@ -111,8 +118,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         }
         bool proved = false;
         undefined = false;
-        bool became_rough = false;
-        for (int round = 0; round < 4 && !proved; ++round) {
+        for (int round = 0; round < 4 && !proved && !became_rough; ++round) {
             tube_.expand(from, times, b, step.order);
             undefined = tube_.undefined();
             if (undefined) {
@@ -148,6 +154,14 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             }
             if (proved) step.swept = intersect(image, b);
         }
+        if (proved && !smooth) { // what the room for the proof adds to a rate, as of a root at 0
+            for (int round = 0; round < 2; ++round) {
+                b = step.swept;
+                tube_.expand(from, times, b, step.order);
+                lagrange_ = tube_lagrange_ = coefficients(tube_, step.order);
+                step.swept = intersect(sum(start_, range, q, tube_lagrange_), b);
+            }
+        }
         if (became_rough) { // a kink lies in the tube: a set-valued step of first order
             smooth = false;
             cut = true;
@@ -168,6 +182,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         std::vector<double> crossing(crosses ? n : 0); // what such a step may lose
         if (crosses) {
             tube_.add_variations(q);
+            step.jumps = step.jumps || tube_.steep();
             for (std::size_t i = 0; i < n; ++i) crossing[i] = allowed_at_kink(x, i);
             for (auto const& e : flow_->entries()) {
                 if (step.jumps || e.column >= n) continue;
@@ -214,8 +229,10 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             }
         }
         if (!crosses) tube_.expand_with_variations(from, times, b, q);
-        undefined = tube_.undefined();
-        if (undefined || (smooth && q > 1 && tube_.kinked())) {
+        bool const steep = tube_.steep();
+        step.jumps = step.jumps || steep;
+        undefined = tube_.undefined() && !steep;
+        if (undefined || (smooth && (steep || (q > 1 && tube_.kinked())))) {
             smooth = undefined;
             cut = cut || !undefined;
             if (undefined) tried = b;
@@ -223,7 +240,8 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             start_order = 0;
             continue;
         }
-        auto variation = bound_variation(*flow_, tube_, traits::upper(length));
+        auto variation =
+            steep ? unbounded_variation() : bound_variation(*flow_, tube_, traits::upper(length));
         if (!variation) {
             why.component = steepest_rate();
             h *= reject_factor;
@@ -331,9 +349,7 @@ std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, doub
         step.dissipative = true;
         step.swept = *tube;
         step.tube = std::move(*tube);
-        step.variation = Eigen::MatrixXd::Constant(
-            static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(ensemble_->deviation.size()),
-            HUGE_VAL);
+        step.variation = *unbounded_variation();
         if (!perturb(step)) break;
         long_map_ = std::move(map);
         return step;

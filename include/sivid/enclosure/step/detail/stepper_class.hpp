@@ -137,6 +137,12 @@ private:
         return traits::rad(c) * enclosure_detail::power_of(h, k);
     }
 
+    /// Where V has no bound, or needs none.
+    [[nodiscard]] std::optional<Eigen::MatrixXd> unbounded_variation() const {
+        return Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(flow_->states()),
+                                         static_cast<Eigen::Index>(ensemble_->deviation.size()),
+                                         HUGE_VAL);
+    }
     [[nodiscard]] std::nullopt_t refuse(enclosure_failure& why, failure_reason reason,
                                         doubleton<I> const& set, double until,
                                         basic_box<I> const& tried) const;

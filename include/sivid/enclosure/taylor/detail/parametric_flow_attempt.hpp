@@ -117,6 +117,7 @@ parametric_flow<Model, Centre>::attempt(mask trying, C const& to, std::size_t or
     if (K > 0) {
         mask kinked = centre_.kinked();
         kinked |= derivative_.kinked();
+        kinked |= derivative_.steep();
         kinked &= trying;
         meet_kink(kinked);
         trying = trying & !kinked;
@@ -190,6 +191,11 @@ parametric_flow<Model, Centre>::attempt(mask trying, C const& to, std::size_t or
         // A lane with a held state goes the same way.
         jumps = K == 0 ? trying & tube_.jumped() : mask{};
         for (auto const& state : held_) jumps = jumps | (trying & state.lanes);
+        // So does one where V has no bound.
+        if (K == 0 && side_by_side::any(trying & !jumps)) {
+            tube_.add_variations(L);
+            jumps = jumps | (trying & tube_.steep());
+        }
         std::vector<C> share(n);
         for (std::size_t i = 0; i < n; ++i) {
             auto const& lagrange = tube_.state(i, K + 1);
@@ -206,13 +212,12 @@ parametric_flow<Model, Centre>::attempt(mask trying, C const& to, std::size_t or
         if (side_by_side::any(jumps))
             trying = short_enough(trying & jumps, h, K, share, {}) | (trying & !jumps);
         if (side_by_side::any(trying & !jumps)) {
-            tube_.add_variations(L);
+            if (K > 0) tube_.add_variations(L);
+            mask late = trying & !jumps & tube_.steep();
+            if (L > 1) late = late | (trying & !jumps & tube_.kinked());
+            meet_kink(late);
+            trying = trying & !late;
             undefined = trying & !jumps & tube_.undefined();
-            if (L > 1) {
-                mask const late = trying & !jumps & tube_.kinked();
-                meet_kink(late);
-                trying = trying & !late;
-            }
             if (side_by_side::any(undefined)) {
                 reject(undefined, failure_reason::undefined, half);
                 trying = trying & !undefined;

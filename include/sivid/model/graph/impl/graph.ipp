@@ -195,23 +195,19 @@ SIVID_DECL node_id graph::pown(node_id a, int n) {
     if (n > most_power || n < -most_power)
         throw std::invalid_argument("a power of " + std::to_string(n) +
                                     ": exponents lie between -2^20 and 2^20; write exp(n*log(x))");
-    // The recurrence of a power needs the next lower one: 0, 1 and 2 are written without. The
-    // product with 0 keeps the domain of a.
+    // The recurrence of a power needs a lower one: 0, 1 and 2 are written without. The product with
+    // 0 keeps the domain of a.
     if (n == 0) return total_[a] ? constant(1.0) : add(constant(1.0), mul(constant(0.0), a));
     if (n == 1) return a;
     if (n == 2) return unary(operation::sqr, a);
     if (n < 0) return div(constant(1.0), pown(a, -n));
     node_id result = 0;
     if (fold(operation::pown, a, a, n, result)) return result;
-    // The next lower power is a companion, down to the square or to one that is there already.
-    int k = n;
-    while (k > 2 && ids_.count({operation::pown, a, a, k}) == 0) --k;
-    result = k > 2 ? ids_[{operation::pown, a, a, k}] : unary(operation::sqr, a);
-    while (k < n) {
-        auto const lower = result;
-        result = shared(operation::pown, a, a, ++k);
-        nodes_[result].companion = lower;
-    }
+    if (auto const found = ids_.find({operation::pown, a, a, n}); found != ids_.end())
+        return found->second;
+    auto const lower = pown(a, is_squared_power(n) ? n / 2 : n - 1);
+    result = shared(operation::pown, a, a, n);
+    nodes_[result].companion = lower;
     return result;
 }
 

@@ -188,7 +188,7 @@ private:
             own_.push_back(beyond(i.a, i.a));
             break;
         case operation::pown:
-            own_.push_back(beyond(i.a, i.companion));
+            own_.push_back(beyond(is_squared_power(i.index) ? i.companion : i.a, i.companion));
             break;
         case operation::div: {
             scalar const lower = least(i.b).least();
@@ -275,8 +275,11 @@ private:
             return i.a_varies ? ra * whole_[i.b] : rb * whole_[i.a];
         case operation::sqr:
             return product(own(), whole_[i.a], whole_[i.a], ra, ra);
-        case operation::pown:
-            return product(own(), whole_[i.a], whole_[i.companion], ra, tail_[i.companion]);
+        case operation::pown: {
+            auto const other = is_squared_power(i.index) ? i.companion : i.a;
+            return product(own(), whole_[other], whole_[i.companion], tail_[other],
+                           tail_[i.companion]);
+        }
         case operation::div: {
             scalar const lower = own();
             if (!i.b_varies) return quotient(ra, lower);

@@ -36,10 +36,8 @@ struct twofold_arithmetic {
         return quotient(a, twofold(static_cast<double>(k)), never);
     }
     static twofold sqr(twofold const& a) { return a * a; }
-    static twofold pown(twofold const& a, int n, bool&) {
-        twofold result(1.0);
-        for (int k = 0; k < n; ++k) result = result * a;
-        return result;
+    static twofold pown(twofold const& a, int n, bool& undefined) {
+        return model_detail::power_by_products<twofold_arithmetic>(a, n, undefined);
     }
     static twofold sqrt(twofold const& a, bool& undefined) { return sivid::sqrt(a, undefined); }
     static twofold exp(twofold const& a) { return twofold(traits::exp(a.bounds())); }
