@@ -285,16 +285,18 @@ page_options(sivid::diagnosis_run const& run, std::string dataset, std::string c
 
 /// Writes diagnosis.json and report.html, both or none.
 /// @param further  adds sections of the program's own: further(page)
+/// @param source   of which data it is, for who checks it
 /// @throws sivid::output_error
 template <class Further>
 void write_diagnosis(sivid::diagnosis const& d, std::string const& id,
                      sivid::report::diagnosis_plot_data const& plots,
                      sivid::report::diagnosis_report_options const& options,
-                     std::filesystem::path const& out, Further&& further) {
+                     std::filesystem::path const& out, Further&& further,
+                     sivid::diagnosis_source const& source = {}) {
     auto page = sivid::report::diagnosis_page(sivid::report::view_of(d, plots, options));
     further(page);
     sivid::file_set files(out);
-    files.add("diagnosis.json", sivid::diagnosis_json(d, id));
+    files.add("diagnosis.json", sivid::diagnosis_json(d, id, source));
     files.add("report.html", page.str());
     files.commit();
 }

@@ -9,10 +9,12 @@
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/io/text/text_file.hpp>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -36,8 +38,18 @@ inline std::string command_line(std::string program, int argc, char** argv) {
     return program;
 }
 
-/// Runs a program and turns what it throws into one message and an exit code: bad input and
-/// requests that cannot be met (std::invalid_argument) into 2, all else into 70.
+/// What was printed has arrived. (Ranks that help have set failbit: they print nothing.)
+/// @throws sivid::output_error
+inline void require_printed() {
+    std::cout.flush();
+    if (std::cout.bad() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw sivid::output_error("the standard output cannot be written; check permissions and "
+                                  "space");
+}
+
+/// Runs a program and turns what it throws into one message and an exit code: bad input, requests
+/// that cannot be met (std::invalid_argument), more than the memory holds and files that cannot be
+/// written into 2, all else into 70.
 template <class Program>
 int guarded(std::string const& name, Program const& program) {
     // Whatever a message quotes, it must not steer the terminal, nor fill it.
@@ -48,14 +60,30 @@ int guarded(std::string const& name, Program const& program) {
         std::cerr << name << ": " << text(e) << "\n";
         return static_cast<int>(bad_input);
     };
+#ifdef SIGXFSZ
+    std::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit is an error of writing, with a message
+#endif
     try {
-        return program();
+        int const code = program();
+        require_printed();
+        return code;
     } catch (sivid::input_error const& e) {
         return refuse(e);
     } catch (sivid::output_error const& e) {
         return refuse(e);
     } catch (std::invalid_argument const& e) {
         return refuse(e);
+    } catch (std::domain_error const& e) { // a model or motion that is not defined there
+        return refuse(e);
+    } catch (std::filesystem::filesystem_error const& e) {
+        std::cerr << name << ": " << sivid::printable_path(e.path1().string()) << ": "
+                  << e.code().message() << "; check the path and its permissions\n";
+        return bad_input;
+    } catch (std::bad_alloc const&) {
+        std::cerr << name
+                  << ": the memory does not suffice; ask for less: fewer samples, a coarser "
+                     "accuracy, a shorter duration\n";
+        return bad_input;
     } catch (std::exception const& e) {
         std::cerr << name << ": internal error: " << text(e) << "\n";
         return internal_error;

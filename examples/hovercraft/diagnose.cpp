@@ -3,17 +3,19 @@
 #include "console/diagnosis_output.hpp"
 #include "console/program.hpp"
 #include "console/ranks.hpp"
+#include "console/result_files.hpp"
 #include "console/threads.hpp"
 #include "effects.hpp"
 #include "manoeuvres.hpp"
 
 #ifdef SIVID_HAS_MPI
 #include <sivid/cluster/diagnose.hpp>
-#include <sivid/io/dataset/dataset_digest.hpp>
 #endif
 #include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/io/result/problem_digest.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -67,10 +69,13 @@ int run(diagnose_command const& c) {
     auto& run = *answer;
     progress.finish();
     auto const kept = sivid::holdout_from_dataset(data, model.about);
+    sivid::diagnosis_source const source{console::seen_from(c.out, c.dataset),
+                                         sivid::dataset_digest(c.dataset),
+                                         sivid::problem_digest(problem)};
     auto const write = [&] {
-        console::write_diagnosis(run.result, data.id, console::plot_data(run, kept),
-                                 console::page_options(run, data.id, c.command_line), c.out,
-                                 [](auto const&) {});
+        console::write_diagnosis(
+            run.result, data.id, console::plot_data(run, kept),
+            console::page_options(run, data.id, c.command_line), c.out, [](auto const&) {}, source);
     };
     write(); // whatever happens to what follows
     if (!kept.empty() && left() > 0 && !console::interrupted()) {

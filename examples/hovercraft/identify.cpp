@@ -482,12 +482,12 @@ int run(identify_command const& c) {
         return view;
     };
     // What is proved comes first, whole; then what has to be integrated once more for pictures.
-    auto view = viewed(nullptr);
-    {
-        sivid::file_set files(c.out);
-        console::add_result_tables(files, problem, found);
-        files.add("outputs.csv", sivid::outputs_csv(problem, found, nullptr));
-        files.add("report.html", report::identification_page(view).str());
+    // result.json names the motion of outputs.csv: both come together.
+    auto const add_result = [&](sivid::file_set& files, auto const& page_view,
+                                sivid::explaining_motion const* motion) {
+        auto const outputs = sivid::outputs_csv(problem, found, motion);
+        files.add("outputs.csv", outputs);
+        files.add("report.html", report::identification_page(page_view).str());
         files.add("result.json",
                   sivid::identification_json(problem, found,
                                              {.dataset = data.id,
@@ -495,7 +495,16 @@ int run(identify_command const& c) {
                                               .further_assumptions = further,
                                               .source_folder = console::seen_from(c.out, c.dataset),
                                               .source_digest = digest,
-                                              .identifiability = told ? &*told : nullptr}));
+                                              .identifiability = told ? &*told : nullptr,
+                                              .outputs = &outputs,
+                                              .motion = motion}));
+    };
+    auto view = viewed(nullptr);
+    bool whole = true; // all files are written
+    {
+        sivid::file_set files(c.out);
+        console::add_result_tables(files, problem, found);
+        add_result(files, view, nullptr);
         files.commit();
     }
     limit.allow(completing);
@@ -504,17 +513,14 @@ int run(identify_command const& c) {
         remembering ? std::nullopt : sivid::find_explaining_motion(problem, found, 240, limit);
     if (motion) {
         view = viewed(&*motion);
-        auto const replace = [&c](char const* name, std::string const& text) {
-            sivid::file_set file(c.out);
-            file.add(name, text);
-            file.commit();
-        };
         try {
-            replace("outputs.csv", sivid::outputs_csv(problem, found, &*motion));
-            replace("report.html", report::identification_page(view).str());
+            sivid::file_set files(c.out);
+            add_result(files, view, &*motion);
+            files.commit();
         } catch (sivid::output_error const& e) {
-            std::cerr << "warning: no pictures of the motion in the report: "
+            std::cerr << "hovercraft: no pictures of the motion in the report: "
                       << sivid::printable_text(e.what(), 1000) << "\n";
+            whole = false;
         }
     }
     for (auto const& file : draw_channel(view, c)) std::cout << "picture: " << file << "\n";
@@ -531,7 +537,7 @@ int run(identify_command const& c) {
     }
     std::cout << shared;
     checkpoint.finish(found.reason);
-    return exit_code_of(found.verdict);
+    return whole ? exit_code_of(found.verdict) : static_cast<int>(console::bad_input);
 }
 
 } // namespace hovercraft_example

@@ -271,10 +271,12 @@ private:
     }
 
     void add_check() {
-        auto* const s = app_.add_subcommand(
-            "check", "prove the result of `identify` anew, independently of how it was found");
+        auto* const s =
+            app_.add_subcommand("check", "prove the result of `identify` or `diagnose` anew");
         auto& c = check_;
-        s->add_option("result", c.result, "folder with result.json and boxes.csv")->required();
+        s->add_option("result", c.result,
+                      "folder with result.json and boxes.csv, or with diagnosis.json")
+            ->required();
         s->add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
         s->add_flag("--all", c.all, "every box instead of a sample");
         s->add_option("--sample", c.sample,
@@ -283,7 +285,7 @@ private:
         s->add_option("--seed", c.seed, "of the sample")->capture_default_str();
         add_method(*s, c.how, "first-order sets of the check");
         s->add_option("--set", c.how.set, "refused: the check has sets of its own");
-        s->add_option("--budget", c.budget, "seconds (10, with --all 3600)")
+        s->add_option("--budget", c.budget, "seconds (10, of a diagnosis 60, with --all 3600)")
             ->check(console::number_between(0.0, 1e9));
         s->add_flag("--multiprecision", c.multiprecision,
                     "boxes too in 40 digits: 20 times slower");

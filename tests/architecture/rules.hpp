@@ -160,6 +160,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/cluster/diagnose.hpp", {"candidate/screening.hpp"}},
         {"sivid/report/fill/detail/scenario_report.hpp", {"simulate/simulate.hpp"}},
         {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/detail/counterexample.hpp"}},
+        {"sivid/verifier/claim/detail/inflation_proof.hpp", {"fit/detail/counterexample.hpp"}},
         {"sivid/verifier/claim/detail/fewest_outliers_check.hpp",
          {"fit/detail/counterexample.hpp"}}};
     std::string_view const floor = "sivid/approximate/";

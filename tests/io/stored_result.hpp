@@ -38,12 +38,15 @@ class stored_result {
 public:
     explicit stored_result(sivid::identification_problem const& problem)
         : stored_result(problem, two_rates_result(problem)) {}
-    stored_result(sivid::identification_problem const& problem,
-                  sivid::identification const& found) {
+    stored_result(sivid::identification_problem const& problem, sivid::identification const& found,
+                  sivid::explaining_motion const* motion = nullptr) {
+        if (motion != nullptr) outputs_ = sivid::outputs_csv(problem, found, motion);
         json_ = sivid::identification_json(problem, found,
                                            {.dataset = "small",
                                             .source_folder = "../data",
-                                            .source_digest = std::string(64, '0')});
+                                            .source_digest = std::string(64, '0'),
+                                            .outputs = motion != nullptr ? &outputs_ : nullptr,
+                                            .motion = motion});
         csv_ = sivid::boxes_csv(problem, found);
         products_ = sivid::products_csv(found);
         if (!found.proof.empty()) certificates_ = sivid::certificates_csv(found.proof);
@@ -65,6 +68,7 @@ public:
         folder.write("boxes.csv", csv_);
         if (!products_.empty()) folder.write("products.csv", products_);
         if (!certificates_.empty()) folder.write("certificates.csv", certificates_);
+        if (!outputs_.empty()) folder.write("outputs.csv", outputs_);
         return sivid::read_identification(folder.path());
     }
 
@@ -75,7 +79,7 @@ private:
         text.replace(at, from.size(), to);
         return true;
     }
-    std::string json_, csv_, products_, certificates_;
+    std::string json_, csv_, products_, certificates_, outputs_;
 };
 
 } // namespace io_support

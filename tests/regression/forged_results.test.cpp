@@ -18,7 +18,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -222,6 +224,51 @@ TEST_CASE("a checkpoint that lost boxes is refused although its digest is right"
     bad = *saved; // an inside box twice would count its volume twice
     bad.search.paved.push_back(bad.search.paved.back());
     CHECK_FALSE(accepted(bad));
+}
+
+TEST_CASE("a checkpoint whose boxes are labelled anew is refused, its digest adapted") {
+    for (bool const reduced : {false, true}) {
+        auto const problem =
+            reduced ? io_support::two_rates_problem() : io_support::one_rate_problem();
+        identify_options options;
+        options.search.accuracy = 1.0 / 256;
+        options.search.sufficient_ratio = 1;
+        options.search.boxes = 40; // which ends it, with boxes that wait
+        options.search.checkpoint_seconds = 0;
+        std::optional<identification_state> saved;
+        options.checkpoint = [&](identification_state const& s) { saved = s; };
+        auto const first = identify(problem, options);
+        REQUIRE(saved);
+        options.checkpoint = nullptr;
+        options.search.boxes = 3000;
+        options.search.sufficient_ratio = 0.9;
+        auto const resumed = [&](identification_state const& s) {
+            options.resume = std::make_shared<identification_state const>(s);
+            return identify(problem, options);
+        };
+        CHECK(resumed(*saved).verdict == first.verdict);
+        std::size_t inside = 0, outside = 0;
+        for (std::size_t k = 0; k < saved->search.paved.size(); ++k) {
+            auto bad = *saved;
+            auto& label = bad.search.paved[k].verdict;
+            if (label == box_verdict::undecided) continue;
+            bool const was_inside = label == box_verdict::inside;
+            ++(was_inside ? inside : outside);
+            label = was_inside ? box_verdict::outside : box_verdict::inside;
+            CAPTURE(reduced, k, was_inside);
+            CHECK_THROWS_AS(resumed(bad), std::invalid_argument);
+            bad.guess.reset(); // nor does a witness help the forger by its absence
+            CHECK_THROWS_AS(resumed(bad), std::invalid_argument);
+        }
+        CHECK(inside > 0);
+        CHECK(outside > 0);
+        if (saved->windows) { // which exclude all but the middle of the prior's lower half
+            auto bad = *saved;
+            auto& side = bad.windows->rest[0];
+            side = interval(side.lower(), side.lower());
+            CHECK_THROWS_AS(resumed(bad), std::invalid_argument);
+        }
+    }
 }
 
 TEST_CASE("what contradicts the data is not consistent by a volume that nothing shows") {

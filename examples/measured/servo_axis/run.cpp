@@ -320,12 +320,15 @@ int run(command const& c) {
         files.drop("products.csv"); // of an earlier result
     }
     files.add("certificates.csv", sivid::certificates_csv(o.found.proof));
-    files.add("outputs.csv",
-              sivid::outputs_csv(posed.problem, o.found, motion ? &*motion : nullptr));
+    auto const* const shown = motion ? &*motion : nullptr;
+    auto const outputs = sivid::outputs_csv(posed.problem, o.found, shown);
+    files.add("outputs.csv", outputs);
     files.add("report.html", page.str());
-    files.add("result.json",
-              sivid::identification_json(posed.problem, o.found,
-                                         {.dataset = c.file, .further_assumptions = further}));
+    files.add("result.json", sivid::identification_json(posed.problem, o.found,
+                                                        {.dataset = c.file,
+                                                         .further_assumptions = further,
+                                                         .outputs = &outputs,
+                                                         .motion = shown}));
     files.commit();
     print_summary(posed, o, c);
     return exit_code_of(o.found.verdict);

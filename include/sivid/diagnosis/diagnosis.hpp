@@ -274,6 +274,7 @@ struct withdrawn_claim {
 struct diagnosis {
     gap_verdict gap = gap_verdict::undecided;
     inflation_range inflation = unknown_inflation();
+    std::optional<named_witness> witness; ///< a validated run proves `inflation.upper()` there
     std::vector<named_estimate> scenario_inflation, channel_inflation;
     std::vector<confined_gap> confined; ///< parts of the data that alone stand against the model
     std::vector<run_reach> reach;       ///< where the gap is undecided: what holds runs back

@@ -3,6 +3,7 @@
 #define SIVID_IMPL_VERIFIER_IPP
 
 #include <sivid/verifier/claim/impl/identifiability_check.ipp>
+#include <sivid/verifier/impl/diagnosis_check.ipp>
 #include <sivid/verifier/impl/identification_check.ipp>
 #include <sivid/verifier/impl/predict_from.ipp>
 

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace sivid {
@@ -26,6 +27,12 @@ enum class motion_source {
     witness,    ///< the verified point
     best_guess  ///< the best fit found, about which nothing is proved
 };
+
+[[nodiscard]] constexpr std::string_view to_string(motion_source s) {
+    return s == motion_source::inside_box ? "inside box"
+           : s == motion_source::witness  ? "witness"
+                                          : "best guess";
+}
 
 /// Proven enclosures of the motions of some parameters with the recorded inputs, for tables and
 /// pictures.

@@ -4,6 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/explaining_motion.hpp>
+#include <sivid/io/input_error.hpp>
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,6 +44,15 @@ inline std::pair<std::string, std::string> side_text(interval const& side, bool 
     }
     return {std::move(low), std::move(high)};
 }
+
+/// The first line of outputs.csv.
+inline constexpr std::string_view output_headings =
+    "scenario,t,channel,unit,measured_lower,measured_upper,model_lower,model_upper,state";
+
+/// What the rows of outputs.csv begin with: each measurement with its bound, by experiment, in the
+/// order of time.
+[[nodiscard]] SIVID_DECL std::vector<std::vector<std::string>>
+measurement_cells(identification_problem const& problem);
 
 /// One row for each box that is not proved outside.
 inline std::string paving_csv(std::vector<std::string> const& names, subpaving const& paving) {

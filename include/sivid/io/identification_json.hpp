@@ -12,8 +12,11 @@
 #include <sivid/paving/identify.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sivid {
@@ -26,6 +29,8 @@ struct identification_json_options {
     std::string source_folder{}; ///< the data set, seen from the result's folder
     std::string source_digest{}; ///< of `dataset_digest`; without it no source is written
     sivid::identifiability const* identifiability = nullptr; ///< written where there is one
+    std::string const* outputs = nullptr; ///< the text of outputs.csv beside it, if there is one
+    explaining_motion const* motion = nullptr; ///< whose outputs that encloses; null: none
 };
 
 /// A share of the prior as an interval within [0, 1].

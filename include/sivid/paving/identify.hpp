@@ -16,9 +16,9 @@ namespace sivid {
 /// @returns  verdict, hulls, paving, identifiable combinations, a witness; `reason` says what ended
 ///           the search. A budget that ends is no error
 /// @throws std::invalid_argument  for a problem that does not fit together (`require_valid` names
-///         what), or a state to resume from that is of another problem (by a digest of it)
-/// @throws std::logic_error       where a verified witness lies in no box that is left: what was
-///         resumed from is forged, or a proof is wrong
+///         what), or a state to resume from of another problem or altered (a proof shows)
+/// @throws std::logic_error       where a verified witness lies in no box that is left: a proof is
+///         wrong
 /// @throws unsound_environment    where interval arithmetic would prove nothing (`guard.hpp`)
 /// @guarantee  `consistent`: a parameter and starts exist; `inconsistent`: none in the whole prior;
 ///             `hull`, `paving`, `combinations` contain every feasible parameter; inside boxes are

@@ -34,7 +34,7 @@ struct simulation_options {
 /// inputs.
 /// @param model       with the inputs that are given here; may be shared by many simulations
 /// @param times       increasing, the first not before `from`
-/// @throws std::runtime_error when it gets stuck or was told to stop
+/// @throws std::domain_error when it gets stuck or was told to stop
 [[nodiscard]] inline approximate_trajectory
 simulate(std::shared_ptr<approximate_model const> model, std::vector<signal> const& inputs,
          std::vector<double> const& initial, std::vector<double> const& parameters, double from,
@@ -55,8 +55,10 @@ simulate(std::shared_ptr<approximate_model const> model, std::vector<signal> con
     simulated_outputs out;
     simulated_trace trace;
     if (!run(initial, parameters, {}, none, false, out, &trace)) {
-        throw std::runtime_error("a simulation was told to stop, or got stuck after t = " +
-                                 std::to_string(trace.times.empty() ? from : trace.times.back()));
+        throw std::domain_error("the motion cannot be followed after t = " +
+                                std::to_string(trace.times.empty() ? from : trace.times.back()) +
+                                ": it is too fast, leaves the range of numbers, or was told to "
+                                "stop; give smaller inputs and starts, or a shorter duration");
     }
     approximate_trajectory result;
     result.times = times;

@@ -21,8 +21,11 @@ class diagnosis_writer {
 public:
     explicit diagnosis_writer(diagnosis const& d) : d_(&d) {}
 
-    [[nodiscard]] std::string text(std::string const& dataset) {
+    [[nodiscard]] std::string text(std::string const& dataset, diagnosis_source const& source) {
         json_.begin_object().members("format", "sivid-diagnosis-1", "dataset", dataset);
+        if (!source.digest.empty())
+            json_.key("source").object("folder", source.folder, "sha256", source.digest);
+        if (!source.problem.empty()) json_.members("problem", source.problem);
         gap();
         relations();
         places(d_->where);
@@ -60,6 +63,7 @@ private:
     void gap() {
         json_.key("gap").begin_object();
         json_.members("verdict", to_string(d_->gap), "inflation", d_->inflation);
+        witness("witness", d_->witness);
         json_.named("scenarios", d_->scenario_inflation, hull);
         json_.named("channels", d_->channel_inflation, hull);
         json_.list("confined", d_->confined, [&](confined_gap const& c) { confined(c); });
@@ -194,8 +198,9 @@ private:
 
 } // namespace io_detail
 
-SIVID_DECL std::string diagnosis_json(diagnosis const& d, std::string const& dataset) {
-    return io_detail::diagnosis_writer(d).text(dataset);
+SIVID_DECL std::string diagnosis_json(diagnosis const& d, std::string const& dataset,
+                                      diagnosis_source const& source) {
+    return io_detail::diagnosis_writer(d).text(dataset, source);
 }
 
 } // namespace sivid

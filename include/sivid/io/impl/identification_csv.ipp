@@ -16,13 +16,35 @@ SIVID_DECL std::string products_csv(identification const& found) {
     return io_detail::paving_csv(found.products->map.side_names(), found.products->paving);
 }
 
+namespace io_detail {
+
+SIVID_DECL std::vector<std::vector<std::string>>
+measurement_cells(identification_problem const& problem) {
+    auto const& channels = problem.model.about.channels;
+    std::vector<std::vector<std::string>> all;
+    for (auto const& e : problem.experiments) {
+        auto& rows = all.emplace_back();
+        auto const name = cell(e.name);
+        double told = detail::not_a_number; // what `time` says: channels share their times
+        std::string time;
+        for (auto const& m : sorted(e.measurements)) {
+            if (m.time != told) time = exact_decimal::shortest(told = m.time).text();
+            auto const& channel = channels[m.channel];
+            rows.push_back(text_of(name, ",", time, ",", channel.name, ",", channel.unit, ",",
+                                   to_decimal_lower(m.bound.lower()), ",",
+                                   to_decimal_upper(m.bound.upper())));
+        }
+    }
+    return all;
+}
+
+} // namespace io_detail
+
 SIVID_DECL std::string outputs_csv(identification_problem const& problem,
                                    identification const& found, explaining_motion const* motion) {
-    auto const& channels = problem.model.about.channels;
     std::set<std::pair<std::size_t, std::size_t>> forced;
     for (auto const& f : found.forced) forced.insert({f.experiment, f.measurement});
-    std::string text = "scenario,t,channel,unit,measured_lower,measured_upper,model_lower,"
-                       "model_upper,state\n";
+    auto text = std::string{io_detail::output_headings} + "\n";
     auto const no_bound = interval_traits<interval>::entire();
     auto const lower_text = [](interval const& x) {
         return std::isfinite(x.lower()) ? to_decimal_lower(x.lower()) : std::string{};
@@ -30,26 +52,17 @@ SIVID_DECL std::string outputs_csv(identification_problem const& problem,
     auto const upper_text = [](interval const& x) {
         return std::isfinite(x.upper()) ? to_decimal_upper(x.upper()) : std::string{};
     };
-    auto const add = [&text](auto const&... cells) { ((text += ',', text += cells), ...); };
-    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
-        auto const name = io_detail::cell(problem.experiments[e].name);
-        auto const samples = sorted(problem.experiments[e].measurements);
-        double told = detail::not_a_number; // what `time` says: channels share their times
-        std::string time;
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            auto const& m = samples[i];
-            if (m.time != told) time = exact_decimal::shortest(told = m.time).text();
+    auto const measured = io_detail::measurement_cells(problem);
+    for (std::size_t e = 0; e < measured.size(); ++e) {
+        for (std::size_t i = 0; i < measured[e].size(); ++i) {
             auto const& output = motion != nullptr ? motion->outputs[e][i] : no_bound;
             bool const violated = found.witness && i < found.witness->violated[e].size() &&
                                   found.witness->violated[e][i];
-            text += name;
-            add(time, channels[m.channel].name, channels[m.channel].unit,
-                to_decimal_lower(m.bound.lower()), to_decimal_upper(m.bound.upper()),
-                lower_text(output), upper_text(output),
-                forced.count({e, i}) > 0 ? "forced_outlier"
-                : violated               ? "witness_outlier"
-                                         : "");
-            text += '\n';
+            auto const* const state = forced.count({e, i}) > 0 ? "forced_outlier"
+                                      : violated               ? "witness_outlier"
+                                                               : "";
+            text += text_of(measured[e][i], ",", lower_text(output), ",", upper_text(output), ",",
+                            state, "\n");
         }
     }
     return text;

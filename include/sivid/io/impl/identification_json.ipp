@@ -6,6 +6,32 @@
 
 namespace sivid {
 
+namespace io_detail {
+
+/// Which table of outputs belongs to the result, and of what motion it is: its very doubles.
+inline void write_shown(json_writer& json, identification_problem const& problem,
+                        identification_json_options const& options) {
+    auto const* const motion = options.motion;
+    auto const sides = [&](std::string_view key, auto const& names, box const& x) {
+        std::vector<std::array<double, 2>> ends;
+        for (auto const& side : x) ends.push_back({side.lower(), side.upper()});
+        json.named(key, names, ends);
+    };
+    json.key("outputs").begin_object().members(
+        "sha256", sha256(*options.outputs), "of",
+        motion == nullptr ? std::nullopt : std::optional{to_string(motion->source)});
+    if (motion != nullptr) {
+        sides("parameters", problem.choice.unknown, motion->parameters);
+        json.key("initial").begin_object();
+        for (std::size_t e = 0; e < problem.experiments.size(); ++e)
+            sides(problem.experiments[e].name, problem.model.about.states, motion->starts[e]);
+        json.end_object();
+    }
+    json.end_object();
+}
+
+} // namespace io_detail
+
 SIVID_DECL std::string identification_json(identification_problem const& problem,
                                            identification const& found,
                                            identification_json_options const& options) {
@@ -53,6 +79,7 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
     json.members("boxes.csv", sha256(boxes_csv(problem, found)));
     if (found.products) json.members("products.csv", sha256(products_csv(found)));
     json.end_object();
+    if (options.outputs != nullptr) io_detail::write_shown(json, problem, options);
 
     json.key("parameters").begin_object();
     for (std::size_t j = 0; j < names.size(); ++j) {

@@ -6,7 +6,9 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/dataset/mapping_entries.hpp>
+#include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/result/certificates_csv.hpp>
+#include <sivid/io/result/detail/stored_values.hpp>
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/io/text/csv_table.hpp>
 #include <sivid/io/text/json_document.hpp>
@@ -22,6 +24,7 @@
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -30,27 +33,6 @@ namespace sivid {
 
 namespace io_detail {
 
-inline interval outward(json_value const& entry) {
-    if (entry.type() == json_value::kind::null) return interval_traits<interval>::empty();
-    auto const& ends = entry.elements();
-    if (ends.size() != 2) entry.fail("not a pair of bounds", "write [lower, upper]");
-    auto const end = [](json_value const& e, double none) {
-        if (e.type() == json_value::kind::null)
-            return none < 0 ? interval_traits<interval>::bounds(-HUGE_VAL, 0)
-                            : interval_traits<interval>::bounds(0, HUGE_VAL);
-        return *enclose(e.number());
-    };
-    auto const low = end(ends[0], -1), high = end(ends[1], 1);
-    if (low.lower() > high.upper()) entry.fail("lower is above upper", "write [lower, upper]");
-    return interval_traits<interval>::bounds(low.lower(), high.upper());
-}
-
-inline std::size_t count(json_value const& entry) {
-    auto const x = entry.number();
-    auto const value = x.whole();
-    if (!value) entry.fail(x.text() + " is no count", "write a whole number from 0 to 1e18");
-    return *value;
-}
 /// A whole number of either sign.
 inline long whole(json_value const& entry) {
     auto const x = entry.number();
@@ -60,30 +42,22 @@ inline long whole(json_value const& entry) {
     return x.is_negative() ? -static_cast<long>(*size) : static_cast<long>(*size);
 }
 
-inline double nearest_number(json_value const& entry) { return *nearest(entry.number()); }
-
-/// The members of an object by their names, as `of` reads each.
-template <class Of>
-auto by_name(json_value const& object, Of const& of) {
-    std::map<std::string, std::remove_cvref_t<std::invoke_result_t<Of, json_value const&>>> all;
-    for (std::size_t k = 0; k < object.members().size(); ++k)
-        all[object.name_of(k)] = std::invoke(of, object.members()[k]);
-    return all;
-}
-
-template <class Word>
-Word one_of(json_value const& entry, std::initializer_list<Word> words) {
-    for (auto const w : words)
-        if (entry.string() == to_string(w)) return w;
-    entry.fail(text_of("unknown word ", in_quotes(entry.string())), "see the format");
+inline stored_identification::shown_motion read_shown(json_value const& entry) {
+    stored_identification::shown_motion result;
+    result.digest = entry.at("sha256").string();
+    auto const& of = entry.at("of");
+    if (of.type() == json_value::kind::null) return result;
+    result.source = to_string(one_of(
+        of, {motion_source::inside_box, motion_source::witness, motion_source::best_guess}));
+    result.parameters = by_name(entry.at("parameters"), exact_ends);
+    result.initial = by_name(entry.at("initial"),
+                             [](json_value const& start) { return by_name(start, exact_ends); });
+    return result;
 }
 
 inline stored_identification::identifiability_claims read_claims(json_value const& entry) {
     stored_identification::identifiability_claims result;
-    result.at = by_name(entry.at("at"), [](json_value const& side) { // the very doubles
-        auto const [low, high] = mapping_entries::ends(side);
-        return interval_traits<interval>::bounds(*nearest(low), *nearest(high));
-    });
+    result.at = by_name(entry.at("at"), exact_ends);
     for (auto const& name : entry.at("unknowns").elements())
         result.unknowns.push_back(name.string());
     result.least_rank = count(entry.at("rank").at("least"));
@@ -192,6 +166,7 @@ inline void read_result(json_value const& root, stored_identification& result) {
     if (auto const* rows = root.find("rows")) result.stated_rows = by_name(*rows, count);
     if (auto const* told = root.find("identifiability"))
         result.identifiability = read_claims(*told);
+    if (auto const* outputs = root.find("outputs")) result.shown = read_shown(*outputs);
 }
 
 inline std::vector<paved_box> read_rows(csv_table const& table,
@@ -246,8 +221,14 @@ SIVID_DECL stored_identification read_identification(std::filesystem::path const
         result.products->rows =
             io_detail::read_rows(csv_table::read(folder / "products.csv"), result.products->sides);
     }
-    if (std::filesystem::exists(folder / "certificates.csv"))
+    auto const is_there = [&folder](char const* name) {
+        std::error_code fault;
+        return std::filesystem::symlink_status(folder / name, fault).type() !=
+               std::filesystem::file_type::not_found;
+    };
+    if (is_there("certificates.csv"))
         result.proof = read_certificates(csv_table::read(folder / "certificates.csv"));
+    if (is_there("outputs.csv")) result.outputs = read_text(folder / "outputs.csv");
     return result;
 }
 

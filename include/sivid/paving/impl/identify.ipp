@@ -15,6 +15,7 @@
 #include <sivid/paving/judge/detail/core_box.hpp>
 #include <sivid/paving/judge/detail/posed_search.hpp>
 #include <sivid/paving/judge/detail/prior_contraction.hpp>
+#include <sivid/paving/judge/detail/resumed_labels.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>
@@ -74,18 +75,38 @@ inline bool is_left(subpaving const& paving, box const& x) {
     });
 }
 
+/// A state to resume from must agree with the witness and with its own boxes' middles.
+/// @param fitted  the guess, in the sides that are searched
+/// @throws std::invalid_argument
+inline void require_true_state(identification_state const& state,
+                               identification_problem const& posed,
+                               feasibility_test_options const& test, identification const& known,
+                               box const& fitted, work_limit const& limit) {
+    if (known.witness) {
+        resumed_labels::require_left(state.search, fitted);
+        if (state.windows && is_empty(intersect(state.windows->rest, fitted)))
+            resumed_labels::refuse("its windows exclude parameters that explain the data");
+    }
+    auto const starts = known.guess ? starts_of(*known.guess, posed) : std::vector<box>{};
+    // A tenth of what the search has taken, should there be so much left.
+    work_limit const share(std::min(0.1 * state.search.seconds, limit.seconds()));
+    resumed_labels(posed, test, starts).require_true(state.search, share);
+}
+
 /// A verified witness and the exclusion of its parameters contradict each other: one of them is no
 /// proof, and nothing is told.
+/// @param resumed  from a state, which may have been altered
 /// @throws std::logic_error
-inline void require_witness_left(identification const& found) {
+inline void require_witness_left(identification const& found, bool resumed) {
     if (!found.witness) return;
     auto const at = point_box(found.witness->parameters);
     bool const left = contains(found.hull, found.witness->parameters) && is_left(found.paving, at);
     if (left &&
         (!found.products || is_left(found.products->paving, found.products->map.forward(at))))
         return;
-    throw std::logic_error("identify: parameters that explain the data were excluded: a state to "
-                           "resume from that was altered, or else a defect, please report it");
+    if (resumed) resumed_labels::refuse("it excludes parameters that explain the data");
+    throw std::logic_error("identify: parameters that explain the data were excluded: a defect, "
+                           "please report it");
 }
 
 } // namespace paving_detail
@@ -151,6 +172,9 @@ SIVID_DECL identification identify(identification_problem const& problem,
                           std::min(1.0, relative_volume(windows->rest, posed.prior).upper()),
                           windows->input_period};
     }
+    if (options.resume)
+        paving_detail::require_true_state(*options.resume, posed, options.test, result, fitted,
+                                          limit);
     double const spent = limit.spent() + (options.resume ? options.resume->seconds : 0);
     options.search.seconds = std::max(0.0, options.search.seconds - spent);
     auto search = options.search;
@@ -232,7 +256,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
             }
         }
     }
-    paving_detail::require_witness_left(result);
+    paving_detail::require_witness_left(result, options.resume != nullptr);
     result.integrations += searched.integrations() - asking;
     if (in_parameters) result.integrations += in_parameters->integrations();
     if (windows) result.integrations += windows->windows + windows->integrations;

@@ -9,6 +9,7 @@
 #include <sivid/verifier/claim/detail/forced_outlier_check.hpp>
 #include <sivid/verifier/claim/detail/identifiability_check.hpp>
 #include <sivid/verifier/claim/detail/identification_consistency.hpp>
+#include <sivid/verifier/claim/detail/output_check.hpp>
 #include <sivid/verifier/claim/detail/paving_check.hpp>
 #include <sivid/verifier/claim/detail/product_check.hpp>
 #include <sivid/verifier/claim/identification_check_options.hpp>
@@ -92,7 +93,7 @@ public:
         });
         add([&] { return witness(); });
         add([&] {
-            return check_forced<Fast>(*problem_, *stored_, hits_, options_.certificate,
+            return check_forced<Fast>(*problem_, *stored_, readings_.met, options_.certificate,
                                       0.2 * limit_.seconds());
         });
         add([&] {
@@ -103,6 +104,10 @@ public:
                                       options_.seed + 2);
         });
         add([&] { return check_identifiability(*problem_, *stored_, limit_); });
+        add([&] {
+            return check_outputs<Exact, Fast>(*problem_, *stored_, readings_, of_points(),
+                                              0.2 * limit_.seconds());
+        });
         if (by_products) add([&] { return check_rows(*problem_, *stored_); });
         bool const drawn = by_products && rebuilt.unproved.empty();
         paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
@@ -175,14 +180,20 @@ private:
         return result;
     }
 
+    /// How single points are followed.
+    [[nodiscard]] enclosure_options of_points() const {
+        enclosure_options fine{
+            .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-7};
+        fine.keep_going = limit_;
+        return fine;
+    }
+
     [[nodiscard]] check_finding witness() {
         std::string fault;
         if (!stored_->witness) return {"witness", outcome::nothing, fault};
         auto const w = witness_point(fault);
         if (!w) return {"witness", outcome::refuted, fault};
-        enclosure_options fine{
-            .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-7};
-        fine.keep_going = limit_;
+        auto const fine = of_points();
         check_finding result{"witness", outcome::verified, ""};
         std::size_t samples = 0;
         auto const p = point_box(w->parameters);
@@ -192,7 +203,7 @@ private:
             own.inputs = nominal(std::move(own.inputs)); // any possible input will do
             plain_run<Exact> run(problem_->model, problem_->choice, own, fine);
             auto const known = run(point_box(w->starts[e]), p);
-            note_hits(e, known, run.samples());
+            note_readings(e, known, run.samples());
             samples += run.samples().size();
             auto says = decide(known, run.samples(), p, own.outliers);
             if (says == run_finding::explained) continue;
@@ -213,15 +224,12 @@ private:
         for (auto const& s : w->starts) starts_.push_back(point_box(s));
         return result;
     }
-    /// Which measurements the witness certainly meets: none of them can be a forced outlier.
-    void note_hits(std::size_t e, plain_outputs<Exact> const& known, record const& samples) {
-        using traits = interval_traits<Exact>;
-        hits_.resize(problem_->experiments.size());
+    /// What the witness certainly meets cannot be a forced outlier.
+    void note_readings(std::size_t e, plain_outputs<Exact> const& known, record const& samples) {
         for (std::size_t k = 0; k < samples.size(); ++k) {
-            auto const& b = samples[k].bound;
-            hits_[e].push_back(
-                k < known.outputs.size() && known.outputs[k].defined &&
-                traits::subset(known.outputs[k].value, traits::bounds(b.lower(), b.upper())));
+            bool const there = k < known.outputs.size() && known.outputs[k].defined;
+            readings_.note(e, samples[k].bound,
+                           there ? std::optional{known.outputs[k].value} : std::nullopt);
         }
     }
 
@@ -229,8 +237,8 @@ private:
     stored_identification const* stored_;
     identification_check_options options_; ///< its `seconds` are those of the step at hand
     work_limit limit_;
-    std::vector<box> starts_;             ///< of a verified witness
-    std::vector<std::vector<bool>> hits_; ///< of the witness
+    std::vector<box> starts_;   ///< of a verified witness
+    witness_readings readings_; ///< of the witness
 };
 
 } // namespace io_detail
