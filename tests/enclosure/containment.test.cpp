@@ -309,7 +309,7 @@ tally draw(std::uint64_t seed, std::size_t enough) {
 } // namespace
 
 TEST_CASE("every stepper, set and number type contains the truth") {
-    auto const done = draw(401, 3000);
+    auto const done = draw(401, 4000);
     CHECK(done.compared.size() >= 8);
 }
 

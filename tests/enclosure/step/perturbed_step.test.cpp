@@ -27,9 +27,7 @@ std::shared_ptr<flow const> free_flow(std::size_t n, Rate const& rate) {
 
 bool prove(perturbed_step<interval>& step, double h, box const& tube) {
     step.set_parameters(box{});
-    std::vector<double> sizes;
-    for (auto const& x : tube) sizes.push_back(mag(x));
-    return step.prove(0, h, between(0, h), tube, sizes, true);
+    return step.prove(0, h, between(0, h), tube, true);
 }
 
 } // namespace
@@ -77,11 +75,14 @@ TEST_CASE("a bound of a perturbation does not hang on the units of time and stat
     // x'' = -9 x + w, x in 2^-k m and the time in 2^-m s.
     for (double const length : {1.0, 0x1p20, 0x1p-30}) {
         for (double const second : {1.0, 0x1p12, 0x1p-12}) {
-            auto const f =
-                free_flow(2, [second](auto const&, auto const& x, auto const&, auto const&) {
+            double const speed = length / second;
+            auto model = support::model_of(
+                {2, 0, 0}, [second](auto const&, auto const& x, auto const&, auto const&) {
                     return std::vector{x[1], -9 / (second * second) * x[0]};
                 });
-            double const speed = length / second;
+            model.about.states[0].limit = length;
+            model.about.states[1].limit = 3 * speed;
+            auto const f = support::flow_of(model);
             perturbed_step<interval> step(*f);
             step.set_rate_bound({0, 0.1 * speed / second});
             REQUIRE(prove(step, second, box{between(-length, length),

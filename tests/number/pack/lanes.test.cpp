@@ -183,7 +183,7 @@ TEST_CASE("the power of two below each lane") {
     for (double const odd : {0.0, -3.0, 1e200, 1e-200, HUGE_VAL, std::nan("")})
         CHECK(unit_below(odd) == 1.0);
     lanes<8> x(5.0);
-    x[3] = 1e-3;
+    lane_traits<lanes<8>>::put(x, 3, 1e-3);
     CHECK(unit_below(x)[0] == 4.0);
     CHECK(unit_below(x)[3] == 0x1p-10);
 }

@@ -216,7 +216,7 @@ private:
         auto const m = columns();
         std::vector<entry> map(n * m);
         double const power = w ? enclosure_detail::power_of(length, L) : 1;
-        // By columns, each in its own unit: the largest of the rows, in the sizes of the states.
+        // By columns, each in its own unit: the largest of the rows, in the states' own ranges.
         double worst = 0;
         for (std::size_t c = 0; c < m; ++c) {
             double tail = 0, spread = 0, size = 0;
@@ -232,9 +232,9 @@ private:
                     rest = tail_.variation(i, c);
                     over_step = variation_at_end(series_, rest, i, c, L, run_.shape(), length);
                 }
-                tail = std::max(tail, rest / run_.size(i));
-                spread = std::max(spread, over_step.spread() / run_.size(i));
-                size = std::max(size, over_step.polynomial_norm() / run_.size(i));
+                tail = std::max(tail, rest / flow_->own_range(i));
+                spread = std::max(spread, over_step.spread() / flow_->own_range(i));
+                size = std::max(size, over_step.polynomial_norm() / flow_->own_range(i));
             }
             double const allowed = std::max(
                 options_.tolerance * size + options_.relative_tolerance * spread, entry::unit * size);
@@ -277,7 +277,7 @@ private:
         }
         centre_ = std::move(next);
         std::vector<double> units;
-        for (std::size_t i = 0; i < n; ++i) units.push_back(unit_below(run_.size(i)));
+        for (std::size_t i = 0; i < n; ++i) units.push_back(unit_below(flow_->own_range(i)));
         rest_.map(along, spread_along, lost, units);
     }
 

@@ -107,10 +107,12 @@ struct doubleton {
     /// @param image  encloses F(m, centre of p)
     /// @param j      encloses \f$ (J_x, J_p) \f$, n x (n + parameters)
     /// @param direct a box that contains the image as well; the new hull is the intersection
+    /// @param ranges of the states, for the frame (`make_frame`)
     /// @guarantee for every \f$ r_0 \f$ and every member x of the set, F(x, p) is in the new set.
     [[nodiscard]] doubleton mapped(double to, basic_box<I> const& image,
                                    interval_matrix<I> const& j, basic_box<I> const& direct,
-                                   basic_box<I> const& deviation) const {
+                                   basic_box<I> const& deviation,
+                                   std::vector<double> const& ranges = {}) const {
         using traits = interval_traits<I>;
         auto const n = image.size();
         auto const columns = deviation.size();
@@ -143,9 +145,7 @@ struct doubleton {
         for (std::size_t i = 0; i < n; ++i) weights[i] = traits::mag(remainder[i]);
         next.largest = largest;
         next.note_sizes(direct);
-        std::vector<double> sizes = next.largest;
-        for (double& x : sizes) x = x > 0 ? x : 1;
-        auto frame = make_frame<I>(approximate_mid(turned), weights, sizes);
+        auto frame = make_frame<I>(approximate_mid(turned), weights, ranges);
         next.axes = std::move(frame.axes);
         next.remainder =
             add(product(frame.inverse, rest), product(product(frame.inverse, turned), remainder));

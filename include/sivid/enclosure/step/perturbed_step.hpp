@@ -20,7 +20,8 @@ namespace sivid {
 /// How a perturbation of the rates spreads during one step, whose length enters with its end:
 ///   \f$ |d|' \le M |d| + G e + r \f$, and \f$ |d' - A d| \le R |d| + G e + r \f$,
 /// e the error bounds of the inputs, which run along lines, and |d| known to stay below `room`. The
-/// bounds come from norms, so each state is measured in a unit of its own size.
+/// bounds come from norms, so each state is measured in a unit of the size of its own
+/// range.
 template <class C>
 struct perturbation_law {
     std::vector<C> growth; ///< M, states x states
@@ -160,15 +161,15 @@ public:
     /// @param to      its end, at most the next knot of a sampled input
     /// @param times   encloses all times of the step
     /// @param tube    all nominal solutions of the family, at all these times
-    /// @param sizes   about the largest |x_i|, above 0; no proof rests on them
     /// @param trying  the lanes that matter
     /// @returns the lanes of `trying` for which a bound was found
     template <class Tube>
     [[nodiscard]] mask prove(scalar const& from, scalar const& to, T const& times, Tube const& tube,
-                             std::vector<scalar> const& sizes, mask trying) {
+                             mask trying) {
         auto const n = flow_->states();
         law_.unit.clear();
-        for (auto const& x : sizes) law_.unit.push_back(unit_below(x));
+        for (std::size_t i = 0; i < n; ++i)
+            law_.unit.push_back(scalar(unit_below(flow_->own_range(i))));
         scalar const h = to - from;
         begin_ = input_errors(*flow_, from, from);
         end_ = input_errors(*flow_, from, to);

@@ -53,10 +53,11 @@ public:
     void map(interval_matrix<interval> const& a, interval_matrix<interval> const& rest) {
         auto const turned = product(a, axes_);
         std::vector<double> weights(inside_.rows(), 0.0);
-        for (std::size_t i = 0; i < inside_.rows(); ++i) {
-            for (std::size_t c = 0; c < inside_.cols(); ++c) {
-                weights[i] = std::max(weights[i], mag(inside_(i, c)));
-            }
+        for (std::size_t c = 0; c < inside_.cols(); ++c) { // each column in its own unit
+            double most = 0;
+            for (std::size_t i = 0; i < inside_.rows(); ++i) most = std::max(most, mag(inside_(i, c)));
+            for (std::size_t i = 0; i < inside_.rows() && most > 0; ++i)
+                weights[i] = std::max(weights[i], mag(inside_(i, c)) / most);
         }
         auto const frame = make_frame<interval>(approximate_mid(turned), weights);
         auto const old = product(product(frame.inverse, turned), inside_);

@@ -311,7 +311,7 @@ std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, doub
     auto const n = flow_->states();
     auto const x = set.hull_and_centre();
     double const rest = limit - set.time;
-    double const constant = 1 / long_->stiffness(set.time, x, size_);
+    double const constant = 1 / long_->stiffness(set.time, x);
     std::vector<double> margin(n);
     for (std::size_t i = 0; i < n; ++i) margin[i] = allowed(x, i);
     double h = std::min({rest, options_.longest_step(), long_length_});
@@ -363,7 +363,7 @@ template <class I>
 bool stepper<I>::perturb(tube_step<I>& step) {
     if (!perturbed_) return true;
     I const times = traits::bounds(step.from, step.to);
-    if (!perturbed_->prove(step.from, step.to, times, step.tube, size_, true)) return false;
+    if (!perturbed_->prove(step.from, step.to, times, step.tube, true)) return false;
     step.perturbation = perturbed_->law();
     auto const& away = perturbed_->largest();
     for (std::size_t i = 0; i < away.size(); ++i) {

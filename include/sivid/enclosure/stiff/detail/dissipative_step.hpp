@@ -14,8 +14,7 @@
 namespace sivid {
 
 template <class I>
-double dissipative_step<I>::stiffness(double t, basic_box<I> const& x,
-                                      std::vector<double> const& sizes) {
+double dissipative_step<I>::stiffness(double t, basic_box<I> const& x) {
     I const time = traits::point(t);
     input_pieces<I> const inputs(*flow_, t, time);
     jacobian_.evaluate(time, x, inputs);
@@ -23,7 +22,8 @@ double dissipative_step<I>::stiffness(double t, basic_box<I> const& x,
     for (auto const& e : flow_->entries()) {
         if (e.column >= rows.size()) continue;
         rows[e.row] +=
-            traits::mag(jacobian_.output(e.output, 0)) * (sizes[e.column] / sizes[e.row]);
+            traits::mag(jacobian_.output(e.output, 0)) *
+            (flow_->own_range(e.column) / flow_->own_range(e.row));
     }
     double largest = 0;
     for (double const r : rows) largest = std::max(largest, r);

@@ -64,10 +64,9 @@ public:
     /// Order of the error in the length of the step.
     [[nodiscard]] std::size_t order() const { return nodes_.size(); }
 
-    /// Largest row sum of the Jacobian at the states x, each measured in its own size: one over the
-    /// shortest time constant.
-    [[nodiscard]] double stiffness(double t, basic_box<I> const& x,
-                                   std::vector<double> const& sizes);
+    /// Largest row sum of the Jacobian at the states x, each measured in its own range: one over
+    /// the shortest time constant.
+    [[nodiscard]] double stiffness(double t, basic_box<I> const& x);
 
     /// A box that holds all solutions from `x` over [from, to].
     /// @param m       a point of `x`

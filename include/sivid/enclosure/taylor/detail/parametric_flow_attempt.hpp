@@ -311,9 +311,7 @@ typename parametric_flow<Model, Centre>::mask parametric_flow<Model, Centre>::pe
         column_entry::constant(set_.time) + widened(column_entry::constant(half), half);
     std::vector<column_entry> tube;
     for (auto const& x : tube_box_) tube.push_back(without_last_variable(x, *column_shape_));
-    std::vector<C> sizes;
-    for (std::size_t i = 0; i < tube.size(); ++i) sizes.push_back(size(i));
-    mask const bounded = perturbed_->prove(set_.time, to, times, tube, sizes, moved);
+    mask const bounded = perturbed_->prove(set_.time, to, times, tube, moved);
     reject(moved & !bounded, failure_reason::minimum_step, C(0.5));
     return bounded;
 }
