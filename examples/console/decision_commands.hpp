@@ -50,9 +50,9 @@ inline int run_predict(sivid::recorded_model const& model,
     files.add("prediction.json", sivid::prediction_json(*about, found, task.json_options()));
     files.commit();
     std::cout << task.scenario() << " for all parameters that " << task.dataset() << " leaves: "
-              << (found.complete
-                      ? "proved"
-                      : "proved up to t = " + report::exact_text(found.reached) + " s only")
+              << (found.complete ? "proved"
+                                 : "proved up to t = " + report::exact_text(found.reached) + " " +
+                                       about->problem.model.about.time_unit + " only")
               << "\n";
     for (auto const& channel : found.channels) {
         report::range const r{channel.low.back(), channel.high.back()};

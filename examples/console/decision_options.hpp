@@ -39,15 +39,18 @@ inline void add_law(CLI::App& s, decision d, decision_command& c) {
     auto* const gain = s.add_option("--gain", c.gain, "of the law: K=3, or a range, K=0:50");
     s.add_option("--sensor", c.sensor, "error bounds of measured(...) in the law, such as u=0.02");
     s.add_option("--sampled", c.sampled,
-                 "longest time between samples of the law, which holds its value between them [s]; "
+                 "longest time between samples of the law, which holds its value between them, in "
+                 "the model's "
+                 "unit of time; "
                  "not given: it acts at every instant")
         ->check(number_between(0.0, 1e9));
-    s.add_option("--delay", c.delay, "longest time from a sample to its effect on the input [s]")
+    s.add_option("--delay", c.delay,
+                 "longest time from a sample to its effect on the input, in that unit")
         ->check(number_between(0.0, 1e9));
-    s.add_option(
-        "--slew", c.slew,
-        "how fast a sampled law may change an input, such as delta=2 [unit/s]; proved with "
-        "the rest");
+    s.add_option("--slew", c.slew,
+                 "how fast a sampled law may change an input, such as delta=2, in its unit per "
+                 "unit of time; proved with "
+                 "the rest");
     if (d != decision::control) return;
     law->required();
     gain->required();
@@ -82,10 +85,12 @@ inline void add_design(CLI::App& s, decision_command& c) {
                  "what is measured and with which error at most, such as psi=0.01; not given: the "
                  "channels of the data, with their largest error");
     s.add_option("--duration", c.duration,
-                 "of the experiment [s]; not given: the scenario's, which also gives the start and "
+                 "of the experiment, in the model's unit of time; not given: the scenario's, which "
+                 "also gives the start and "
                  "the inputs that are not varied")
         ->check(number_between(0.0, 1e9));
-    s.add_option("--period", c.period, "of the measurements [s]; not given: as in the data")
+    s.add_option("--period", c.period,
+                 "of the measurements, in the model's unit of time; not given: as in the data")
         ->check(number_between(0.0, 1e9));
     s.footer(
         "Exit codes: 0 an experiment with that promise is found, 2 bad input, 3 none is found, "

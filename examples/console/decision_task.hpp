@@ -247,10 +247,11 @@ public:
 
 private:
     [[nodiscard]] std::string when() const {
+        auto const unit = " " + problem_.model.about.time_unit;
         if (command_.sampled == 0) return "at every instant, without a delay";
-        return "on samples at most " + report::given_text(command_.sampled) +
-               " s apart, each at most " + report::given_text(command_.delay) +
-               " s after it was taken, and is held";
+        return "on samples at most " + report::given_text(command_.sampled) + unit +
+               " apart, each at most " + report::given_text(command_.delay) + unit +
+               " after it was taken, and is held";
     }
     /// The point, and the middle of what else is open.
     [[nodiscard]] static std::vector<double> with_others(std::vector<double> point,

@@ -145,7 +145,8 @@ inline int run_design(sivid::recorded_model const& open,
     std::optional<std::string> scenario;
     if (!answer.impossible) {
         auto const menu = sivid::manoeuvre_shapes(answer.varied, about->problem.inputs,
-                                                  mid(about->problem.initial), about->problem.end);
+                                                  mid(about->problem.initial), about->problem.end,
+                                                  about->problem.model.about.time_unit);
         sivid::design_options options;
         options.seconds = 0.8 * c.budget;
         options.target = answer.jointly

@@ -29,12 +29,13 @@ namespace detail {
 
 inline std::vector<sivid::report::missing_rate_series>
 missing_rates(sivid::place_estimate const& places,
-              std::vector<sivid::relation_finding> const& findings) {
+              std::vector<sivid::relation_finding> const& findings, std::string const& time_unit) {
     std::vector<sivid::report::missing_rate_series> result;
     for (auto const& p : places.places) {
         if (p.kind == sivid::place_kind::sensor) continue;
         for (auto const& r : p.rates) {
             sivid::report::missing_rate_series d{p.name, r.scenario, p.unit};
+            d.time_unit = time_unit;
             for (std::size_t k = 0; k < r.times.size(); ++k) {
                 double const v = r.values[k], off = r.deviations[k];
                 d.estimate.push_back({r.times[k], v, {v - off, v + off}});
@@ -98,7 +99,8 @@ inline void print_times(sivid::diagnosis const& d) {
         for (auto const& o : times) {
             bool const known = o.hull && o.prior && width(*o.hull) < width(*o.prior);
             std::cout << what << value_words(o)
-                      << (known ? ", within " + sivid::report::outward_text(*o.hull) + " s (proved)"
+                      << (known ? ", within " + sivid::report::outward_text(*o.hull) + " " +
+                                      o.unit + " (proved)"
                                 : std::string{"; no other time is excluded"})
                       << "\n";
         }
@@ -148,8 +150,9 @@ inline sivid::report::diagnosis_plot_data plot_data(sivid::diagnosis_run const& 
             run.holdout_after ? run.holdout_after->run : sivid::approximate_fit{}, true);
         data.scenarios.insert(data.scenarios.end(), more.begin(), more.end());
     }
-    data.missing_rates = detail::missing_rates(run.places, run.findings);
-    data.remaining_rates = detail::missing_rates(run.remaining_places, {});
+    auto const& time_unit = run.base.model.about.time_unit;
+    data.missing_rates = detail::missing_rates(run.places, run.findings, time_unit);
+    data.remaining_rates = detail::missing_rates(run.remaining_places, {}, time_unit);
     return data;
 }
 

@@ -136,7 +136,8 @@ private:
         if (!motion.complete())
             throw bad_request(
                 std::string{"scenario "} + s.name + ": the true motion could not be enclosed: " +
-                motion.failure()->message(model_.about.states[motion.failure()->component].name));
+                motion.failure()->message(model_.about.states[motion.failure()->component].name,
+                                          model_.about.time_unit));
         auto const truth = sample_truth(out, motion);
         add_samples(out, truth, choose_outliers(truth));
         if (out.measurements.empty())

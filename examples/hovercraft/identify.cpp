@@ -103,7 +103,7 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
             auto const m = sorted(e.measurements)[found.forced[k].measurement];
             std::cout << (k == 0 ? ": " : ", ") << e.name << " "
                       << problem.model.about.channels[m.channel].name << " at "
-                      << report::given_text(m.time) << " s";
+                      << report::given_text(m.time) << " " << problem.model.about.time_unit;
         }
         std::cout << (found.forced.size() > most ? ", ...\n" : "\n");
     }

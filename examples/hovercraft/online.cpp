@@ -19,8 +19,9 @@ using sivid::report::outward_text;
 
 void write_line(std::ostream& lines, double time, sivid::online_update const& now,
                 sivid::identification_problem const& problem) {
-    lines << "  t = " << sivid::report::given_text(time) << " s, " << now.samples << " samples, "
-          << sivid::report::duration_text(now.seconds) << ": " << to_string(now.verdict);
+    lines << "  t = " << sivid::report::given_text(time) << " " << problem.model.about.time_unit
+          << ", " << now.samples << " samples, " << sivid::report::duration_text(now.seconds)
+          << ": " << to_string(now.verdict);
     for (std::size_t j = 0; j < now.hull.size() && now.live > 0; ++j) {
         lines << ", " << problem.choice.unknown[j] << " " << outward_text(now.hull[j]);
     }

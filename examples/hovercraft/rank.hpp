@@ -104,9 +104,7 @@ public:
         auto const& about = flow_.model().about;
         for (std::size_t i = 0; i < n; ++i) {
             ranked_equation equation{
-                about.states[i].name,
-                sivid::unit(about.states[i].unit).times(sivid::unit("s"), -1).text(),
-                {}};
+                about.states[i].name, sivid::rate_unit(about.states[i].unit, about.time_unit), {}};
             for (std::size_t c = 0; c < m; ++c) {
                 using traits = sivid::interval_traits<sivid::interval>;
                 auto const width = traits::sub(traits::point(priors_[c].upper()),

@@ -76,10 +76,10 @@ public:
         if (c.how.set != "taylor-model") {
             auto const why =
                 sivid::explain_enclosed_motion(*flow_, start, sivid::box{}, 0, s.duration, options);
-            failure_ = why->message(about_.states[why->failure.component].name);
+            failure_ = why->message(about_.states[why->failure.component].name, about_.time_unit);
         } else {
             auto const& why = *tube.failure();
-            failure_ = why.message(about_.states[why.component].name);
+            failure_ = why.message(about_.states[why.component].name, about_.time_unit);
         }
     }
 
@@ -118,7 +118,8 @@ public:
     }
 
     [[nodiscard]] std::string summary() const {
-        std::string text = scenario_.name + " at t = " + shortest(line_.times.back()) + " s:";
+        std::string text = scenario_.name + " at t = " + shortest(line_.times.back()) + " " +
+                           about_.time_unit + ":";
         for (std::size_t c = 0; c < about_.channels.size(); ++c) {
             double const y = line_.outputs.back()[c];
             text += std::string{" "} + about_.channels[c].name + " = " +
@@ -136,7 +137,9 @@ public:
         // The states are the channels of this model, so that a step's box shows both.
         std::vector<report::channel_series> all;
         for (std::size_t i = 0; i < about_.states.size(); ++i) {
-            report::channel_series c{.name = about_.states[i].name, .unit = about_.states[i].unit};
+            report::channel_series c{.name = about_.states[i].name,
+                                     .unit = about_.states[i].unit,
+                                     .time_unit = about_.time_unit};
             for (std::size_t k = 0; k < line_.times.size(); ++k)
                 c.reference.push_back({line_.times[k], line_.states[k][i]});
             if (validated_)
@@ -156,7 +159,9 @@ public:
         report::figure inputs{
             .panels = {}, .title = "Inputs.", .caption = "What the craft was given."};
         for (std::size_t i = 0; i < inputs_.size(); ++i) {
-            report::channel_series c{.name = about_.inputs[i].name, .unit = about_.inputs[i].unit};
+            report::channel_series c{.name = about_.inputs[i].name,
+                                     .unit = about_.inputs[i].unit,
+                                     .time_unit = about_.time_unit};
             for (double const t : line_.times) c.reference.push_back({t, input(i, t)});
             inputs.panels.push_back(report::draw_time_plot(c, {.title = c.name}));
         }
@@ -249,7 +254,8 @@ private:
             at_end_ = states_at(2 * found.times.size() - 2);
         else
             failure_ = scenario_.name + ": the tube over these ranges is proved up to t = " +
-                       shortest(found.reached) + " s; narrower ranges get further";
+                       shortest(found.reached) + " " + about_.time_unit +
+                       "; narrower ranges get further";
     }
 
     /// An input for tables and pictures.

@@ -82,7 +82,7 @@ TEST_CASE("what is wrong with a law is said with its place") {
                ContainsSubstring("unknown name 'Z'") && ContainsSubstring("K"));
     CHECK_THAT(message("u0 = foo(x0)"), ContainsSubstring("clamp, during, integral"));
     CHECK_THAT(message("u0 = during(2, 1)"), ContainsSubstring("ends before it begins"));
-    CHECK_THAT(message("u0 = during(-1, 1)"), ContainsSubstring("time in seconds"));
+    CHECK_THAT(message("u0 = during(-1, 1)"), ContainsSubstring("time in s is"));
     CHECK_THAT(message("u0 = measured(z)"), ContainsSubstring("the model has: y0, y1"));
     CHECK_THAT(message("u0 = clamp(x0, 1)"), ContainsSubstring("clamp(x, low, high)"));
     CHECK(message("u0 = 1 / 0") != "nothing");

@@ -22,7 +22,7 @@ namespace {
 
 std::vector<sivid::manoeuvre> shapes_for(sivid::prediction_problem const& p, double low,
                                          double high) {
-    return sivid::manoeuvre_shapes({{0, "u0", "1", low, high}}, p.inputs, {0.0}, p.end);
+    return sivid::manoeuvre_shapes({{0, "u0", "1", low, high}}, p.inputs, {0.0}, p.end, "s");
 }
 
 } // namespace
@@ -84,7 +84,7 @@ TEST_CASE("an actuator begins each manoeuvre at what it is told") {
     auto const goal = sivid::parse_goal("p0", p.model);
     auto const limits = sivid::parse_requirement("always(abs(x1 - u0) < 0.001)", p.model, p.end);
     auto const plan = sivid::planned_measurements::every(0.25, p.end, {0.02});
-    auto const menu = sivid::manoeuvre_shapes({{0, "u0", "1", 1, 2}}, p.inputs, {0, 0}, p.end);
+    auto const menu = sivid::manoeuvre_shapes({{0, "u0", "1", 1, 2}}, p.inputs, {0, 0}, p.end, "s");
     auto const found = sivid::design_experiment(p, {menu.front()}, plan, {goal}, &limits,
                                                 {.seconds = 100, .pairs = 10});
     REQUIRE(found.best() != nullptr); // a constant: from a start of 0 it would have to catch up
@@ -185,7 +185,7 @@ TEST_CASE("an experiment refutes one of two causes, whichever is true") {
     CHECK_FALSE(same.told_apart);
 
     auto const plan = sivid::planned_measurements::every(0.25, 3, {0.02});
-    auto const menu = sivid::manoeuvre_shapes({{0, "u0", "1", 0, 4}}, linear.inputs, {1}, 3);
+    auto const menu = sivid::manoeuvre_shapes({{0, "u0", "1", 0, 4}}, linear.inputs, {1}, 3, "s");
     auto const of_linear = sivid::parse_requirement("always(x0 < 3)", linear.model, 3);
     auto const of_square = sivid::parse_requirement("always(x0 < 3)", square.model, 3);
     auto const found = sivid::design_separation(linear, square, menu, plan, &of_linear, &of_square,

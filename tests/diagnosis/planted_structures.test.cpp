@@ -255,7 +255,7 @@ TEST_CASE("turns that nobody can count are not counted") {
         double const a = std::remainder(y + noise, turn);
         readings.push_back({at, 0, interval(a - 0.02, a + 0.02)});
     }
-    refused(twice, "on both sides of a leap at 0.7853 s");
+    refused(twice, "on both sides of a leap at t = 0.7853");
     readings.pop_back();
     check_kept(twice, {e}, {1, turn});
 }

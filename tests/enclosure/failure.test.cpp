@@ -79,14 +79,16 @@ TEST_CASE("each reason and advice has its own words") {
     CHECK(words.size() == 16);
     CHECK(words.count("") == 0);
     enclosure_failure f{failure_reason::too_wide, 1.5, 2, advice::smaller_box};
-    CHECK(f.message("psi") == "enclosure stopped at t = 1.5 s (state psi): the enclosure grew too "
-                              "wide; split the box of parameters and initial states");
+    CHECK(f.message("psi", "s") ==
+          "enclosure stopped at t = 1.5 s (state psi): the enclosure grew too "
+          "wide; split the box of parameters and initial states");
     f.reason = failure_reason::undefined;
     f.until = 1.50390625;
     f.note(domain_edge{3, false, operation::log, -1e-3, 2});
     CHECK(f.component == 3);
-    CHECK_THAT(f.message("v"), ContainsSubstring("(state v, last step tried of 0.00390625 s)") &&
-                                   ContainsSubstring("(log of a value in [-0.001, 2])"));
+    CHECK_THAT(f.message("v", "ms"),
+               ContainsSubstring("(state v, last step tried of 0.00390625 ms)") &&
+                   ContainsSubstring("(log of a value in [-0.001, 2])"));
     CHECK(domain_edge{0, true, operation::div, -1, 1}.text() ==
           "division by a value in [-1, 1], in a derivative");
 }

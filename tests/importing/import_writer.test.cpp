@@ -173,3 +173,63 @@ TEST_CASE("docs/importing.md quotes what the examples give") {
     };
     CHECK(factor(in_page) == factor(in_file));
 }
+
+TEST_CASE("what a mapping says of units is in the data set, and is compared with the model's") {
+    temporary_folder const folder;
+    std::string const mapping = R"({"format": "sivid-mapping-1", "id": "course", "model": "turn",
+      "parameters": {"w": {"prior": [0, 180], "unit": "deg/s"}}, "max_outlier_fraction": 0,
+      "scenarios": [{"name": "s", "file": "course.csv", "source": {"kind": "csv"},
+        "time": {"column": "t", "unit": "ms", "offset": 0},
+        "channels": {"psi": {"column": "heading", "unit": "deg", "error": 3}},
+        "initial": "propose"}]})";
+    auto const written = [&](std::string const& text) {
+        folder.write("mapping.json", text);
+        folder.write("course.csv", "t,heading\n0,0\n1000,90\n2000,180\n3000,270\n");
+        write_import(import_dataset(read_import_mapping(folder.path() / "mapping.json")),
+                     folder.path() / "out");
+        return folder.read("out/dataset.json");
+    };
+    auto const json = written(mapping);
+    CHECK_THAT(json, ContainsSubstring(R"("time_unit": "s")"));
+    CHECK_THAT(json, ContainsSubstring(R"("channel_units": {"psi": "deg"})"));
+    CHECK_THAT(json, ContainsSubstring(R"("psi": {"range": [-3, 3], "unit": "deg"})"));
+
+    model_names model;
+    model.name = "turn";
+    model.constants = {{"w", "rad/s"}};
+    model.states = model.channels = {{"psi", "rad"}};
+    model.state_ranges = {{-10, 10}};
+    auto const data = read_dataset(folder.path() / "out", model);
+    constexpr double degree = 3.141592653589793 / 180;
+    CHECK(contains(data.parameters[0].prior.enclosure, 180 * degree));
+    CHECK(width(data.parameters[0].prior.enclosure) < 180.0001 * degree);
+    auto const& s = data.scenarios[0];
+    for (std::size_t k = 0; k < 4; ++k) {
+        auto const turned = 90 * static_cast<double>(k);
+        CHECK(s.measurements[k].time == static_cast<double>(k));
+        CHECK_THAT(lower(s.measurements[k].bound), WithinAbs((turned - 3) * degree, 1e-14));
+        CHECK_THAT(upper(s.measurements[k].bound), WithinAbs((turned + 3) * degree, 1e-14));
+    }
+    CHECK_THAT(upper(s.initial[0].range), WithinAbs(3 * degree, 1e-15));
+
+    model.channels[0].unit = "m";
+    CHECK_THROWS_WITH(read_dataset(folder.path() / "out", model),
+                      ContainsSubstring("/channel_units/psi"));
+    model.channels[0].unit = "rad";
+    model.time_unit = "min";
+    CHECK(read_dataset(folder.path() / "out", model).scenarios[0].measurements[3].time == 0.05);
+
+    CHECK_THROWS_WITH(written(io_support::replaced(mapping, "\"deg\"", "\"hours of sleep\"")),
+                      ContainsSubstring("/scenarios/0/channels/psi/unit") &&
+                          ContainsSubstring("'hours of sleep' is no unit"));
+    CHECK_THROWS_WITH(written(io_support::replaced(mapping, "\"deg/s\"", "\"deg of sleep\"")),
+                      ContainsSubstring("/parameters/w/unit"));
+    CHECK_THROWS_WITH(written(io_support::replaced(mapping, "\"ms\"", "\"m\"")),
+                      ContainsSubstring("unknown unit 'm'"));
+    auto const two = io_support::replaced(
+        mapping, "\"initial\": \"propose\"}",
+        R"("initial": "propose"}, {"name": "s2", "file": "course.csv", "source": {"kind": "csv"},
+           "time": {"column": "t", "unit": "ms", "offset": 0},
+           "channels": {"psi": {"column": "heading", "unit": "rad", "error": 3}}})");
+    CHECK_THROWS_WITH(written(two), ContainsSubstring("'psi' has 'rad' here and 'deg' in 's'"));
+}

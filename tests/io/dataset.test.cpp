@@ -208,8 +208,8 @@ TEST_CASE("bad input gives one error that names the place") {
         {"prior NaN", json, "[0.5, 0.7]", "[0.5, NaN]", "/parameters/Cd/prior/1", "malformed JSON"},
         {"prior infinite", json, "[0.5, 0.7]", "[0.5, Infinity]", "/parameters/Cd/prior/1",
          "malformed JSON"},
-        {"another unit", json, "\"unit\": \"m^2\"", "\"unit\": \"cm^2\"", "/parameters/Sv/unit",
-         "differs from the model's"},
+        {"another unit", json, "\"unit\": \"m^2\"", "\"unit\": \"m^3\"", "/parameters/Sv/unit",
+         "does not convert to the model"},
         // fixed
         {"fixed unknown", json, "\"m\": 1.297", "\"mass\": 1.297", "/fixed/mass",
          "unknown constant"},
@@ -437,4 +437,91 @@ TEST_CASE("the reference campaigns are read") {
         }
     }
     CHECK(campaigns == 5);
+}
+
+TEST_CASE("a data set in other units is the same problem") {
+    temporary_folder const folder, plain;
+    io_support::write_small(plain);
+    io_support::write_small(folder);
+    auto const model = io_support::hovercraft_names();
+    // The same numbers in milliseconds, millimetres a second, square centimetres and grams.
+    auto json = replaced(io_support::small_json, "\"max_outlier_fraction\"",
+                         "\"time_unit\": \"ms\", \"channel_units\": {\"u\": \"mm/s\"}, "
+                         "\"input_units\": {\"W\": \"1/min\"}, \"max_outlier_fraction\"");
+    json = replaced(json, "[0.20, 0.25], \"unit\": \"m^2\"", "[2000, 2500], \"unit\": \"cm^2\"");
+    json = replaced(json, "\"m\": 1.297", "\"m\": {\"value\": 1297, \"unit\": \"g\"}");
+    json = replaced(json, "\"duration\": 1,", "\"duration\": 1000,");
+    json = replaced(json, "\"duration\": 0.5", "\"duration\": 500");
+    json = replaced(json, "\"u\": [0.1, 0.3]", "\"u\": {\"range\": [10, 30], \"unit\": \"cm/s\"}");
+    folder.write("dataset.json", json);
+    folder.write("S1.inputs.csv", "t,W,delta\n0,15000,0\n500,12000,0.1\n1000,15000,0\n");
+    folder.write("S1.measurements.csv", "t,u,u_err,psi,psi_err\n"
+                                        "100,2038.474,20,-0.005986,0.03\n"
+                                        "200,,20,0.1,0.03\n"
+                                        "1000,3000,20,,\n");
+    folder.write("H1.inputs.csv",
+                 "t,delta,delta_err,W\n-100,0,0.01,6000\n250,,,7200\n600,0.2,0.02,7800\n");
+    folder.write("H1.measurements.csv", "t,r,r_err\n500,0.1,1e-3\n");
+    auto const a = read_dataset(folder.path(), model), b = read_dataset(plain.path(), model);
+    CHECK(a.parameters[0].prior.lower == b.parameters[0].prior.lower);
+    CHECK(a.parameters[0].prior.upper == b.parameters[0].prior.upper);
+    CHECK(a.parameters[0].unit == "m^2");
+    CHECK(lower(a.fixed[0].value) == lower(b.fixed[0].value));
+    CHECK(upper(a.fixed[0].value) == upper(b.fixed[0].value));
+    for (std::size_t s = 0; s < 2; ++s) {
+        auto const &x = a.scenarios[s], &y = b.scenarios[s];
+        CHECK(x.duration == y.duration);
+        CHECK(x.initial[0].range.lower() == y.initial[0].range.lower());
+        CHECK(x.initial[0].range.upper() == y.initial[0].range.upper());
+        for (std::size_t i = 0; i < 2; ++i) {
+            CHECK(x.inputs[i].signal.times() == y.inputs[i].signal.times());
+            CHECK(x.inputs[i].signal.values() == y.inputs[i].signal.values());
+            CHECK(x.inputs[i].error == y.inputs[i].error);
+        }
+        REQUIRE(x.measurements.size() == y.measurements.size());
+        for (std::size_t k = 0; k < x.measurements.size(); ++k) {
+            CHECK(x.measurements[k].time == y.measurements[k].time);
+            CHECK(lower(x.measurements[k].bound) == lower(y.measurements[k].bound));
+            CHECK(upper(x.measurements[k].bound) == upper(y.measurements[k].bound));
+        }
+    }
+}
+
+TEST_CASE("units of a data set are compared with the model's") {
+    temporary_folder const folder;
+    auto const model = io_support::hovercraft_names();
+    auto const at = [&](std::string const& from, std::string const& to) {
+        io_support::write_small(folder);
+        folder.write("dataset.json", replaced(io_support::small_json, from, to));
+        try {
+            (void)read_dataset(folder.path(), model);
+        } catch (input_error const& e) {
+            CHECK_FALSE(e.remedy().empty());
+            return e.place().pointer + ": " + e.problem();
+        }
+        return std::string("accepted");
+    };
+    auto const key = [&](std::string const& more) { return at("\"id\"", more + ", \"id\""); };
+    CHECK(key(R"("channel_units": {"psi": "rad", "u": "m/s"}, "input_units": {"W": "1/s"})") ==
+          "accepted");
+    CHECK(key(R"("channel_units": {"psi": "deg"}, "time_unit": "s")") == "accepted");
+    CHECK_THAT(key(R"("channel_units": {"psi": "hours of sleep"})"),
+               ContainsSubstring("/channel_units/psi: 'hours of sleep' is no unit"));
+    CHECK_THAT(key(R"("channel_units": {"psi": "m"})"),
+               ContainsSubstring("/channel_units/psi: 'm' is the unit of the channel 'psi', which "
+                                 "does not convert to the model's 'rad'"));
+    CHECK_THAT(key(R"("channel_units": {"heading": "rad"})"),
+               ContainsSubstring("unknown channel 'heading'"));
+    CHECK_THAT(key(R"("input_units": {"delta": "%"})"), ContainsSubstring("accepted"));
+    CHECK_THAT(key(R"("input_units": {"W": "rpm"})"), ContainsSubstring("/input_units/W"));
+    CHECK_THAT(key(R"("time_unit": "m")"), ContainsSubstring("/time_unit: 'm' is the unit of"));
+    CHECK_THAT(key(R"("time_unit": 3)"), ContainsSubstring("/time_unit"));
+    CHECK_THAT(at("\"m\": 1.297", R"("m": {"value": 1.297, "unit": "m"})"),
+               ContainsSubstring("/fixed/m/unit"));
+    CHECK_THAT(at("\"m\": 1.297", R"("m": {"unit": "kg"})"), ContainsSubstring("/fixed/m"));
+    CHECK_THAT(at("\"u\": [0.1, 0.3]", R"("u": {"range": [0.1, 0.3], "unit": "m"})"),
+               ContainsSubstring("/scenarios/0/initial/u/unit"));
+    CHECK_THAT(at("[0.20, 0.25]", "[1e99, 1e100]"), ContainsSubstring("accepted"));
+    CHECK_THAT(at("[0.20, 0.25], \"unit\": \"m^2\"", "[1e99, 1e100], \"unit\": \"km^2\""),
+               ContainsSubstring("/parameters/Sv/prior: in the model's unit"));
 }

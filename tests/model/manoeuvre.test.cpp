@@ -22,7 +22,7 @@ std::vector<sivid::signal> three_constants() {
 
 TEST_CASE("shapes keep their limits whatever their settings are") {
     std::vector<sivid::varied_input> const varied{{0, "u", "N", -1, 3}, {2, "w", "rad", 0.1, 0.2}};
-    auto const menu = sivid::manoeuvre_shapes(varied, three_constants(), {1, 2}, 5);
+    auto const menu = sivid::manoeuvre_shapes(varied, three_constants(), {1, 2}, 5, "s");
     CHECK(menu.size() == 6 + 2 * 5);
     std::set<std::string> names;
     support::draws d{7};
@@ -52,16 +52,17 @@ TEST_CASE("shapes keep their limits whatever their settings are") {
         }
     }
     CHECK(names.size() == menu.size());
-    CHECK(sivid::manoeuvre_shapes({varied[0]}, three_constants(), {1, 2}, 5).size() == 6);
+    CHECK(sivid::manoeuvre_shapes({varied[0]}, three_constants(), {1, 2}, 5, "s").size() == 6);
 }
 
 TEST_CASE("inputs that cannot be varied are refused") {
     auto const make = [](sivid::varied_input const& u) {
-        return sivid::manoeuvre_shapes({u}, three_constants(), {0}, 1);
+        return sivid::manoeuvre_shapes({u}, three_constants(), {0}, 1, "s");
     };
     CHECK_THROWS_AS(make({0, "u", "N", 1, 1}), std::invalid_argument);
     CHECK_THROWS_AS(make({0, "u", "N", 2, 1}), std::invalid_argument);
     CHECK_THROWS_AS(make({0, "u", "N", 0, HUGE_VAL}), std::invalid_argument);
     CHECK_THROWS_AS(make({3, "u", "N", 0, 1}), std::invalid_argument);
-    CHECK_THROWS_AS(sivid::manoeuvre_shapes({}, three_constants(), {0}, 1), std::invalid_argument);
+    CHECK_THROWS_AS(sivid::manoeuvre_shapes({}, three_constants(), {0}, 1, "s"),
+                    std::invalid_argument);
 }

@@ -154,7 +154,7 @@ TEST_CASE("a fault has the prior that its name says, and its channel's unit") {
             CHECK(lower < p.prior().lower() + 1e-12);
             CHECK(p.prior().upper() >= upper);
             CHECK(upper > p.prior().upper() - 1e-12);
-            CHECK(p.unit == unit);
+            CHECK(p.unit_in(about) == unit);
         }
         CHECK(e.name == name);
     };

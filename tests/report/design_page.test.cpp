@@ -44,7 +44,7 @@ struct designed {
         sivid::requirement what;
         if (!limits.empty()) what = sivid::parse_requirement(limits, p.model, p.end);
         answer.found = sivid::design_experiment(
-            p, sivid::manoeuvre_shapes(answer.varied, p.inputs, {0}, p.end), answer.plan,
+            p, sivid::manoeuvre_shapes(answer.varied, p.inputs, {0}, p.end, "s"), answer.plan,
             answer.goals, limits.empty() ? nullptr : &what, {.seconds = 60, .pairs = 10});
         if (auto const* best = answer.found.best()) p.inputs = best->inputs;
         about->direct = p;

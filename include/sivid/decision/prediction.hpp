@@ -17,6 +17,7 @@ namespace sivid {
 struct predicted_tube {
     std::string name, unit;
     std::vector<double> low, high;
+    std::string time_unit = "s"; ///< the model's
 };
 
 /// Every motion of a scenario for all parameters and starts of a prediction problem.

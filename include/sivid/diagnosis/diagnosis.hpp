@@ -162,20 +162,22 @@ struct noise_growth {
     /// The least c >= 0 with which bounds e + c |y|, or e + c |dy/dt|, let a parameter explain all
     /// data; y is the output at the fit `shown`, numbers like any, and what is less than a
     /// millionth of the largest counts as 0. Both ends are proved. A channel whose time stamps are
-    /// off by up to c seconds has about such errors.
+    /// off by up to c has about such errors.
     interval coefficient{0.0};
     /// By how much likelier uniform noise within these bounds is than noise within the bounds that
     /// are so many times as wide (`confined_gap::factor`): natural logarithm, of fits.
     double likelier = 0;
     named_witness witness{}; ///< a validated run proves `coefficient.upper()` there
     named_witness shown{};   ///< the fit whose outputs the bounds grow with; not proved
+    std::string unit = "1";  ///< of c: with the rate the model's unit of time
 };
 
 /// Errors of a channel that go together instead of being drawn one by one: a slow disturbance of
 /// the instrument, or an effect on it. An estimate.
 struct error_correlation {
     double of_neighbours = 0; ///< correlation of each error with the next one
-    double seconds = 0;       ///< in which it falls to 1/e
+    double seconds = 0;       ///< in which it falls to 1/e, in `unit`, the model's unit of time
+    std::string unit = "s";
 };
 
 /// Readings that are too coarse for their error bounds: whole multiples of a step. With half a step
@@ -272,6 +274,7 @@ struct withdrawn_claim {
 /// Everything that is called proved, certified, excluded or explained is a theorem under the
 /// assumptions listed; the rest is an estimate.
 struct diagnosis {
+    std::string time_unit = "s"; ///< the model's
     gap_verdict gap = gap_verdict::undecided;
     inflation_range inflation = unknown_inflation();
     std::optional<named_witness> witness; ///< a validated run proves `inflation.upper()` there

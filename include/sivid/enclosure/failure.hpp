@@ -150,7 +150,9 @@ struct enclosure_failure {
     }
 
     /// One sentence for a user.
-    [[nodiscard]] std::string message(std::string_view state) const;
+    /// @param time_unit  the model's (`model_description::time_unit`); none: numbers alone
+    [[nodiscard]] std::string message(std::string_view state,
+                                      std::string_view time_unit = {}) const;
 };
 
 /// How far a remedy was seen to carry the enclosure.
@@ -173,10 +175,11 @@ struct advised_failure {
     std::vector<remedy_trial> trials;
 
     /// One sentence as by the failure itself, and what each trial reached.
-    [[nodiscard]] std::string message(std::string_view state) const;
+    [[nodiscard]] std::string message(std::string_view state,
+                                      std::string_view time_unit = {}) const;
 
 private:
-    [[nodiscard]] static std::string what(remedy_trial const& t);
+    [[nodiscard]] static std::string what(remedy_trial const& t, std::string const& unit);
 };
 
 } // namespace sivid

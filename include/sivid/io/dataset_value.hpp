@@ -33,13 +33,15 @@ struct dataset_parameter {
 struct fixed_constant {
     std::size_t constant = 0; ///< index into the model's constants
     exact_decimal stated;
-    interval value; ///< encloses it
+    interval value;     ///< encloses it, in the model's unit
+    std::string unit{}; ///< of `stated`; empty: the model's
 };
 
 /// The state at t = 0: what the data set states, or else the model's own range.
 struct initial_range {
     interval range;
     std::optional<stated_range> stated; ///< nothing: the state was left out
+    std::string unit{}; ///< of what an import states; empty, and once it is read: the model's
 };
 
 /// value +/- error of one measurement as stated.
@@ -65,7 +67,7 @@ inline constexpr double farthest_range = 1e100;
 struct scenario {
     std::string name;
     scenario_role role = scenario_role::fit;
-    double duration = 0;               ///< [s]
+    double duration = 0;               ///< in the model's unit of time
     std::vector<dataset_input> inputs; ///< one for each input of the model
     record measurements;               ///< by time, then channel; bound encloses value +/- error
     std::vector<stated_measurement> stated; ///< of the same measurements
@@ -84,7 +86,7 @@ struct dataset_effect {
 };
 
 /// A campaign: what is known before, and what was recorded. A value; read_dataset makes it,
-/// write_dataset stores it.
+/// write_dataset stores it. Everything is in the model's units, whatever units the files are in.
 struct dataset {
     std::string id, model;
     std::vector<dataset_parameter> parameters; ///< in the order of the file

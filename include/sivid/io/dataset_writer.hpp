@@ -65,8 +65,8 @@ namespace sivid {
         if (!rows[m.time].try_emplace(m.channel, &s.stated.at(i)).second)
             throw output_error{text_of(s.name, ".measurements.csv: two measurements of ",
                                        in_quotes(model.channels.at(m.channel).name), " at ",
-                                       exact_decimal::shortest(m.time).text(),
-                                       " s; leave one of them out")};
+                                       exact_decimal::shortest(m.time).text(), " ", model.time_unit,
+                                       "; leave one of them out")};
     }
     std::string text = "t";
     for (auto c : channels)
@@ -85,7 +85,7 @@ namespace sivid {
     return text;
 }
 
-/// The text of `dataset.json`.
+/// The text of `dataset.json`, with the units of what the tables hold: those of `model`.
 [[nodiscard]] inline std::string dataset_json(dataset const& data, model_names const& model) {
     constexpr auto one_line = json_writer::layout::one_line;
     auto const range = [](stated_range const& r) { return std::array{r.lower, r.upper}; };
@@ -98,11 +98,27 @@ namespace sivid {
     });
     if (!data.fixed.empty()) {
         json.key("fixed").begin_object();
-        for (auto const& f : data.fixed)
-            json.members(model.constants.at(f.constant).name, f.stated);
+        for (auto const& f : data.fixed) {
+            json.key(model.constants.at(f.constant).name);
+            if (f.unit.empty())
+                json.value(f.stated);
+            else
+                json.object("value", f.stated, "unit", f.unit);
+        }
         json.end_object();
     }
     json.members("max_outlier_fraction", data.max_outlier_fraction);
+    json.members("time_unit", model.time_unit);
+    auto const units = [&](char const* key, std::vector<name_unit> const& names) {
+        auto const stated = [](name_unit const& q) { return !q.unit.empty(); };
+        if (std::none_of(names.begin(), names.end(), stated)) return;
+        json.key(key).begin_object(one_line);
+        for (auto const& q : names)
+            if (stated(q)) json.members(q.name, q.unit);
+        json.end_object();
+    };
+    units("channel_units", model.channels);
+    units("input_units", model.inputs);
     json.list("scenarios", data.scenarios, [&](scenario const& s) {
         bool const hold =
             !s.inputs.empty() && s.inputs.front().signal.kind() == interpolation::hold;
@@ -113,8 +129,13 @@ namespace sivid {
         json.members("measurements", s.name + ".measurements.csv");
         json.key("initial").begin_object(one_line);
         for (std::size_t i = 0; i < s.initial.size(); ++i) {
-            if (auto const& stated = s.initial[i].stated)
-                json.members(model.states.at(i).name, range(*stated));
+            auto const& [enclosure, stated, unit] = s.initial[i];
+            if (!stated) continue;
+            json.key(model.states.at(i).name);
+            if (unit.empty())
+                json.value(range(*stated));
+            else
+                json.object("range", range(*stated), "unit", unit);
         }
         json.end_object().end_object();
     });

@@ -42,10 +42,15 @@ struct effect_parameter {
     decimal upper;
     decimal neutral;
     double widened = 1; ///< a power of 2: how far the ends that may move were moved
+    /// The model's unit of time to this power stands behind `unit`: effects of any model do not
+    /// know it.
+    int time_power = 0;
 
     /// From `lower` to `upper`. An end at 0 or at the neutral value is what the effect is made for
     /// and stays; others lie `widened` times as far out, or so much closer to 0.
     [[nodiscard]] interval prior() const;
+    /// The whole unit, in this model.
+    [[nodiscard]] SIVID_DECL std::string unit_in(model_description const& about) const;
 };
 
 /// Something that a model leaves out, as an edit of its recording: inputs and constants may change

@@ -4,6 +4,7 @@
 
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/model/unit.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,9 @@ namespace model_detail {
 struct varied_shape {
     std::string name;
     /// Limits of the settings; levels are in the input's unit.
-    std::function<std::vector<manoeuvre_setting>(varied_input const&, double duration)> settings;
+    std::function<std::vector<manoeuvre_setting>(varied_input const&, double duration,
+                                                 std::string const& time_unit)>
+        settings;
     std::function<signal(varied_input const&, double duration, double const* settings)> make;
 };
 
@@ -85,24 +88,27 @@ signal waving(varied_input const& u, double duration, double mean, double amplit
 inline std::vector<varied_shape> const& varied_shapes() {
     constexpr double turn = 2 * std::numbers::pi;
     static std::vector<varied_shape> const all{
-        {"constant", [](varied_input const& u, double) { return std::vector{level(u, "level")}; },
+        {"constant",
+         [](varied_input const& u, double, std::string const&) {
+             return std::vector{level(u, "level")};
+         },
          [](varied_input const& u, double T, double const* s) {
              return through(u, {0, T}, {s[0], s[0]});
          }},
         {"ramp",
-         [](varied_input const& u, double) {
+         [](varied_input const& u, double, std::string const&) {
              return std::vector{level(u, "begin"), level(u, "end")};
          },
          [](varied_input const& u, double T, double const* s) {
              return through(u, {0, T}, {s[0], s[1]});
          }},
         {"steps",
-         [](varied_input const& u, double T) {
+         [](varied_input const& u, double T, std::string const& time) {
              return std::vector{level(u, "first level"),
                                 level(u, "second level"),
                                 level(u, "third level"),
-                                {"first step of " + u.name, "s", 0.05 * T, 0.5 * T},
-                                {"second step of " + u.name, "s", 0.55 * T, 0.95 * T}};
+                                {"first step of " + u.name, time, 0.05 * T, 0.5 * T},
+                                {"second step of " + u.name, time, 0.55 * T, 0.95 * T}};
          },
          [](varied_input const& u, double T, double const* s) {
              double const rise = 0.01 * T; // no actuator jumps
@@ -110,17 +116,17 @@ inline std::vector<varied_shape> const& varied_shapes() {
                             {s[0], s[0], s[1], s[1], s[2], s[2]});
          }},
         {"sine",
-         [](varied_input const& u, double T) {
+         [](varied_input const& u, double T, std::string const& time) {
              return std::vector{level(u, "mean"),
                                 share(u, "amplitude"),
-                                {"frequency of " + u.name, "Hz", 0.5 / T, 5 / T}};
+                                {"frequency of " + u.name, rate_unit("1", time), 0.5 / T, 5 / T}};
          },
          [](varied_input const& u, double T, double const* s) {
              return waving(u, T, s[0], s[1],
                            [&](double at) { return std::sin(turn * s[2] * T * at); });
          }},
         {"multisine",
-         [](varied_input const& u, double) {
+         [](varied_input const& u, double, std::string const&) {
              return std::vector{level(u, "mean"),
                                 share(u, "amplitude"),
                                 {"first phase of " + u.name, "rad", 0, turn},
@@ -134,7 +140,7 @@ inline std::vector<varied_shape> const& varied_shapes() {
              });
          }},
         {"free knots",
-         [](varied_input const& u, double) {
+         [](varied_input const& u, double, std::string const&) {
              std::vector<manoeuvre_setting> all_knots;
              for (int k = 0; k <= 5; ++k)
                  all_knots.push_back(level(u, "knot " + std::to_string(k)));
@@ -154,11 +160,12 @@ inline std::vector<varied_shape> const& varied_shapes() {
 /// are constant.
 ///   Every value lies within its input's limits, as doubles compare.
 /// @param start   the states at the begin
+/// @param time_unit  the model's, of settings that are times
 /// @param others  a signal for each input of the model; those that are varied are replaced
 /// @throws std::invalid_argument  limits that are not finite or not in order, no input
 [[nodiscard]] inline std::vector<manoeuvre>
 manoeuvre_shapes(std::vector<varied_input> const& varied, std::vector<signal> const& others,
-                 std::vector<double> const& start, double duration) {
+                 std::vector<double> const& start, double duration, std::string const& time_unit) {
     if (varied.empty()) throw std::invalid_argument("manoeuvres: there is no input to vary");
     for (auto const& u : varied) {
         if (!(u.lower < u.upper) || !std::isfinite(u.upper - u.lower) || u.index >= others.size())
@@ -171,7 +178,7 @@ manoeuvre_shapes(std::vector<varied_input> const& varied, std::vector<signal> co
         std::vector<std::size_t> first;
         for (std::size_t v = 0; v < varied.size(); ++v) {
             first.push_back(m.settings.size());
-            auto const own = shapes[kinds[v]].settings(varied[v], duration);
+            auto const own = shapes[kinds[v]].settings(varied[v], duration, time_unit);
             m.settings.insert(m.settings.end(), own.begin(), own.end());
         }
         m.inputs = [varied, others, duration, kinds, first](std::vector<double> const& settings) {

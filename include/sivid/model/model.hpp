@@ -182,7 +182,9 @@ concept observed_model = requires(M const m, expression t, states_of<M, expressi
 /// A dynamic model: its equations, explicit or implicit, and its outputs are member templates on
 /// the scalar, free of side effects; `name`, `states`, `inputs`, `channels`, `constants` say what
 /// the numbers mean. A further member template, `derived`, is optional: constants that are
-/// functions of others.
+/// functions of others. So is the unit of time, `static constexpr auto time_unit = "ms";`: without
+/// it times are in seconds. All that is printed of times and rates is in that unit, and data sets
+/// in another one are converted.
 template <class M>
 concept dynamic_model = requires {
     M::states;
@@ -223,6 +225,7 @@ struct model_description {
     std::vector<item> inputs;
     std::vector<item> channels;
     std::vector<constant> constants;
+    std::string time_unit = "s"; ///< of t, of delays, and below rates
 };
 
 enum class memory_kind {
@@ -321,12 +324,22 @@ template <class Taken>
     return name;
 }
 /// What a functor says of itself, as data.
-/// @throws std::invalid_argument as `require_own_names`
+/// @throws std::invalid_argument as `require_own_names`, and for a unit of time that is no unit
 [[nodiscard]] SIVID_DECL model_description described(std::string_view name,
                                                      std::span<state_quantity const> states,
                                                      std::span<quantity const> inputs,
                                                      std::span<quantity const> channels,
-                                                     std::span<constant_quantity const> constants);
+                                                     std::span<constant_quantity const> constants,
+                                                     std::string_view time_unit = "s");
+/// The unit of time that a functor declares.
+template <class M>
+inline constexpr std::string_view time_unit_of = [] {
+    if constexpr (requires { M::time_unit; }) {
+        return std::string_view(M::time_unit);
+    } else {
+        return std::string_view("s");
+    }
+}();
 /// Adds a relation between constants to a recorded model.
 /// @throws std::invalid_argument when the constant is unknown, stands twice, or is not a function
 /// of
@@ -342,13 +355,15 @@ SIVID_DECL void add_derived(recorded_model& model, std::string_view name, expres
 } // namespace model_detail
 
 /// Runs the functor once on the recording scalar.
-/// @throws std::invalid_argument  where two states, inputs, channels or constants have one name
+/// @throws std::invalid_argument  where two states, inputs, channels or constants have one name,
+///         and for a unit of time that is no unit
 /// @guarantee evaluating the graph with a sound interval type encloses the functor's real value.
 template <dynamic_model M>
 [[nodiscard]] recorded_model record_model(M const& model = {}) {
     recorded_model result;
-    result.about = model_detail::described(std::string_view(M::name), M::states, M::inputs,
-                                           M::channels, M::constants);
+    result.about =
+        model_detail::described(std::string_view(M::name), M::states, M::inputs, M::channels,
+                                M::constants, model_detail::time_unit_of<M>);
     auto& g = result.g;
     auto const leaves = [&g]<std::size_t N>(operation op, std::array<expression, N>& out) {
         for (std::size_t i = 0; i < N; ++i) out[i] = expression(g, g.leaf(op, i));

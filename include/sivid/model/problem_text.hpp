@@ -76,12 +76,12 @@ inline void describe(canonical_text& t, graph const& g) {
 }
 
 inline void describe(canonical_text& t, recorded_model const& m) {
-    t("model", m.about.name);
-    for (auto const& s : m.about.states) t("state", s.name, s.limit);
-    for (auto const& i : m.about.inputs) t("input", i.name);
-    for (auto const& c : m.about.channels) t("channel", c.name);
+    t("model", m.about.name, m.about.time_unit);
+    for (auto const& s : m.about.states) t("state", s.name, s.unit, s.limit);
+    for (auto const& i : m.about.inputs) t("input", i.name, i.unit);
+    for (auto const& c : m.about.channels) t("channel", c.name, c.unit);
     for (auto const& c : m.about.constants) {
-        t("constant", c.name, c.nominal.enclosure, c.nominal.nearest);
+        t("constant", c.name, c.unit, c.nominal.enclosure, c.nominal.nearest);
     }
     describe(t, m.g);
     t("rate", m.rate)("observe", m.observe);

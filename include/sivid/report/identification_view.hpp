@@ -78,6 +78,7 @@ struct comparison_row {
 struct identification_view {
     std::string dataset{};
     std::string model{};
+    std::string time_unit = "s";          ///< the model's
     outcome verdict = outcome::undecided; ///< proved: consistent, refuted: inconsistent
     std::string sentence{};               ///< one sentence for the banner; empty: a standard one
     std::vector<parameter_view> parameters{};

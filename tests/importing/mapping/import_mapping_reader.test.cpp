@@ -87,7 +87,7 @@ TEST_CASE("defects are refused at their place") {
         "cannot be told apart");
     has("\"interpolation\"", "\"duration\": 0, \"interpolation\"", "the duration is not above 0");
     has(", \"offset\": 0", "", "a key is missing: /scenarios/0/time/offset (where t = 0 lies");
-    has("\"ms\"", "\"d\"", "/scenarios/0/time/unit: unknown unit 'd'");
+    has("\"ms\"", "\"m\"", "/scenarios/0/time/unit: unknown unit 'm'");
     has("\"initial\": { \"h\": [0, 1] }", "\"initial\": { \"h\": 3 }", "/scenarios/0/initial/h");
     has("} ]\n}", "}, { \"name\": \"A\" } ]\n}",
         "3 keys are missing: /scenarios/1/file (relative to the mapping); /scenarios/1/time");

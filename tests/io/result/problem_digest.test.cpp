@@ -26,6 +26,10 @@ TEST_CASE("whatever decides a search changes the digest, budgets and threads do 
     using p = identification_problem;
     differs([](p& x) { x.model.about.name = "another"; });
     differs([](p& x) { x.model.about.states[0].limit = 11; });
+    differs([](p& x) { x.model.about.time_unit = "ms"; });
+    differs([](p& x) { x.model.about.states[0].unit = "furlong"; });
+    differs([](p& x) { x.model.about.channels[0].unit = "furlong"; });
+    differs([](p& x) { x.model.about.constants[0].unit = "furlong"; });
     differs([](p& x) { x.model.rate[0] = x.model.g.neg(x.model.rate[0]); });
     differs([](p& x) { x.model.about.constants[1].nominal = {interval(0.25), 0.25}; });
     differs([](p& x) { x.model.derived.push_back({1, x.model.rate[0]}); });

@@ -35,7 +35,7 @@ TEST_CASE("channel series: a sample's tip says what is known") {
     channel_series const c{.name = "r", .unit = "rad/s"};
     std::string const tip =
         detail::sample_tip(c, {0.5, {1, 2}, sample_state::forced_outlier, {3, 4}});
-    CHECK_THAT(tip, ContainsSubstring("t = 0.5 s"));
+    CHECK_THAT(tip, ContainsSubstring("t = 0.5\xC2\xA0s"));
     CHECK_THAT(tip, ContainsSubstring("[1.00, 2.00] rad/s"));
     CHECK_THAT(tip, ContainsSubstring("model within [3.00, 4.00]"));
     CHECK_THAT(tip, ContainsSubstring("outlier (proved)"));

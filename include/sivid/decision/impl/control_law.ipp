@@ -77,9 +77,9 @@ private:
         }
         if (name == "during") {
             double const from = instant(end_);
-            words_.need(",", "write during(from, to) in seconds");
+            words_.need(",", "write during(from, to) in " + time_unit());
             double const to = instant(end_);
-            words_.need(")", "write during(from, to) in seconds");
+            words_.need(")", "write during(from, to) in " + time_unit());
             if (!(from < to))
                 words_.fail_at(position, "it ends before it begins", "write during(from, to)");
             // What begins before the end and lasts to it holds at the end, too.

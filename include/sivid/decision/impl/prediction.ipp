@@ -310,6 +310,7 @@ private:
         for (std::size_t y = 0; y < m; ++y) {
             tubes[y].name = outputs_.model.about.channels[y].name;
             tubes[y].unit = outputs_.model.about.channels[y].unit;
+            tubes[y].time_unit = outputs_.model.about.time_unit;
             std::vector<double> low, high;
             for (auto const& i : parts_) {
                 cover_->segments(i.what, i.seen, y, low, high);

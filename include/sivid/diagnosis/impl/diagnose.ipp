@@ -56,6 +56,7 @@ public:
 
     [[nodiscard]] diagnosis_run operator()() {
         auto& d = run_.result;
+        d.time_unit = run_.base.model.about.time_unit;
         d.assumptions.push_back(input_assumption(run_.base.experiments));
         screening tried(run_.base, run_.catalogue, options_.screening);
         kept_ = (1 - options_.first_fit_share) * options_.seconds;

@@ -20,18 +20,30 @@ SIVID_DECL std::string domain_edge::text() const {
            (derivative ? ", in a derivative" : "") + (formula.empty() ? "" : ": " + formula);
 }
 
-SIVID_DECL std::string enclosure_failure::message(std::string_view state) const {
-    return "enclosure stopped at t = " + short_text_down(time) + " s (state " + std::string(state) +
-           (until > time ? ", last step tried of " + short_text(until - time) + " s" : "") +
+namespace enclosure_detail {
+/// What stands behind a time: a blank and its unit, or nothing.
+[[nodiscard]] inline std::string behind_time(std::string_view unit) {
+    return unit.empty() ? std::string{} : " " + std::string(unit);
+}
+} // namespace enclosure_detail
+
+SIVID_DECL std::string enclosure_failure::message(std::string_view state,
+                                                  std::string_view time_unit) const {
+    auto const unit = enclosure_detail::behind_time(time_unit);
+    return "enclosure stopped at t = " + short_text_down(time) + unit + " (state " +
+           std::string(state) +
+           (until > time ? ", last step tried of " + short_text(until - time) + unit : "") +
            "): " + std::string(to_string(reason)) + (edge ? " (" + edge->text() + ")" : "") + "; " +
            std::string(to_string(help));
 }
 
-SIVID_DECL std::string advised_failure::message(std::string_view state) const {
-    std::string text = failure.message(state);
+SIVID_DECL std::string advised_failure::message(std::string_view state,
+                                                std::string_view time_unit) const {
+    std::string text = failure.message(state, time_unit);
+    auto const unit = enclosure_detail::behind_time(time_unit);
     std::string tried;
-    auto const to = [this](double t) {
-        return t >= end ? std::string("the end") : "t = " + short_text_down(t) + " s";
+    auto const to = [&](double t) {
+        return t >= end ? std::string("the end") : "t = " + short_text_down(t) + unit;
     };
     auto const add = [&tried](std::string const& what) {
         tried += (tried.empty() ? "" : "; ") + what;
@@ -40,19 +52,19 @@ SIVID_DECL std::string advised_failure::message(std::string_view state) const {
         add((k == 0 ? "a single trajectory from the middle gets to " : "from a corner to ") +
             to(members[k]));
     }
-    for (auto const& t : trials) add(what(t) + " to " + to(t.reached));
+    for (auto const& t : trials) add(what(t, unit) + " to " + to(t.reached));
     return tried.empty() ? text : text + ". Tried: " + tried;
 }
 
-SIVID_DECL std::string advised_failure::what(remedy_trial const& t) {
+SIVID_DECL std::string advised_failure::what(remedy_trial const& t, std::string const& unit) {
     auto const& o = t.options;
     switch (t.remedy) {
     case advice::higher_order:
         return (o.method ? o.method->name : "order " + std::to_string(o.order)) +
                " with tolerance " + short_text(o.tolerance) + " and steps down to " +
-               short_text(o.shortest_step()) + " s";
+               short_text(o.shortest_step()) + unit;
     case advice::shorter_steps:
-        return "steps down to " + short_text(o.shortest_step()) + " s";
+        return "steps down to " + short_text(o.shortest_step()) + unit;
     case advice::more_steps:
         return std::to_string(o.maximum_steps) + " steps";
     case advice::other_method:

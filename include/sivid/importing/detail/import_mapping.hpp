@@ -2,10 +2,11 @@
 #ifndef SIVID_IMPORTING_DETAIL_IMPORT_MAPPING_HPP
 #define SIVID_IMPORTING_DETAIL_IMPORT_MAPPING_HPP
 
-#include <sivid/importing/mapping/detail/unit_conversion.hpp>
 #include <sivid/io/dataset/model_names.hpp>
+#include <sivid/io/dataset/unit_conversion.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/input_error.hpp>
+#include <sivid/model/unit.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -140,6 +141,16 @@ struct scenario_mapping {
     std::optional<window_mapping> windows;
     std::size_t thin = 1; ///< each so-many-th reading of a channel is kept
     input_place place;
+
+    /// The unit of a start that readings show, that of their channel; empty: the model's, or not
+    /// stated.
+    [[nodiscard]] std::string unit_of(mapped_start const& start) const {
+        if (start.from == mapped_start::kind::stated) return {};
+        auto const q = std::find_if(channels.begin(), channels.end(),
+                                    [&](auto const& c) { return c.name == start.channel; });
+        if (q == channels.end() || q->unit.empty()) return {};
+        return start.from == mapped_start::kind::rate ? rate_unit(q->unit, "s") : q->unit;
+    }
 };
 
 /// The content of a file in the format sivid-mapping-1; read_import_mapping makes it.
@@ -167,7 +178,11 @@ struct import_mapping {
         result.name = model;
         auto const add = [](std::vector<name_unit>& list, std::string const& name,
                             std::string const& unit) {
-            if (!index_of(list, name)) list.push_back({name, unit});
+            auto const known = index_of(list, name);
+            if (!known)
+                list.push_back({name, unit});
+            else if (list[*known].unit.empty())
+                list[*known].unit = unit;
         };
         for (auto const& p : parameters) add(result.constants, p.name, p.unit);
         for (auto const& f : fixed) add(result.constants, f.name, "");
@@ -175,9 +190,9 @@ struct import_mapping {
             for (auto const& q : s.inputs) add(result.inputs, q.name, q.unit);
             for (auto const& q : s.channels) add(result.channels, q.name, q.unit);
             for (auto const* list : {&s.initial, &s.initial_after_break})
-                for (auto const& r : *list) add(result.states, r.name, "");
+                for (auto const& r : *list) add(result.states, r.name, s.unit_of(r));
             if (!s.windows) continue;
-            for (auto const& r : s.windows->initial) add(result.states, r.name, "");
+            for (auto const& r : s.windows->initial) add(result.states, r.name, s.unit_of(r));
         }
         result.state_ranges.assign(result.states.size(), interval::whole());
         return result;

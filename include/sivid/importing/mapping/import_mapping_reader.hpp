@@ -7,6 +7,7 @@
 #include <sivid/importing/mapping/detail/source_form_reader.hpp>
 #include <sivid/importing/mapping/detail/window_mapping_reader.hpp>
 #include <sivid/io/dataset/mapping_entries.hpp>
+#include <sivid/io/dataset/stated_unit.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/text/json_document.hpp>
 
@@ -61,6 +62,7 @@ private:
             auto const& entry = list.members()[i];
             entry.allow_only({"prior", "unit"});
             auto const* unit = entry.find("unit");
+            if (unit != nullptr) (void)read_unit(*unit);
             result.parameters.push_back({list.name_of(i), unit ? unit->any_string() : "",
                                          mapping_entries::range(entry.at("prior"))});
         }
@@ -163,7 +165,25 @@ private:
             if (!same)
                 list.elements()[i].fail("the inputs differ from those of the first scenario",
                                         "map every input of the model in every scenario");
+            check_units(list.elements()[i], mapping, i, &scenario_mapping::inputs);
+            check_units(list.elements()[i], mapping, i, &scenario_mapping::channels);
         }
+    }
+
+    /// A data set has one unit for each quantity: that of scenario `i` is that of those before.
+    static void check_units(json_value const& entry, import_mapping const& mapping, std::size_t i,
+                            std::vector<quantity_mapping> scenario_mapping::*list) {
+        auto const stated = [](std::string const& unit) {
+            return unit.empty() ? std::string{"no unit"} : in_quotes(unit);
+        };
+        for (auto const& q : mapping.scenarios[i].*list)
+            for (std::size_t k = 0; k < i; ++k)
+                for (auto const& other : mapping.scenarios[k].*list)
+                    if (other.name == q.name && other.unit != q.unit)
+                        entry.fail(text_of(in_quotes(q.name), " has ", stated(q.unit), " here and ",
+                                           stated(other.unit), " in ",
+                                           in_quotes(mapping.scenarios[k].name)),
+                                   "state the same unit, and convert by \"factor\"");
     }
 
     std::filesystem::path file_;

@@ -233,8 +233,8 @@ private:
         result.initial.assign(result_.names.states.size(), {interval::whole(), std::nullopt});
         for (auto const* m : starts_of(s))
             if (auto const range = start(s, *m))
-                result.initial[*index_of(result_.names.states, m->name)] = {range->enclosure,
-                                                                            range};
+                result.initial[*index_of(result_.names.states, m->name)] = {range->enclosure, range,
+                                                                            s.mapping->unit_of(*m)};
         check_budget(s);
         return result;
     }

@@ -91,10 +91,10 @@ namespace sivid::mapping_entries {
     return x;
 }
 
-/// A duration [s].
+/// A duration.
 [[nodiscard]] inline exact_decimal duration(json_value const& entry) {
     auto const x = entry.number();
-    if (!(*nearest(x) > 0)) entry.fail("the duration is not above 0", "state it in seconds");
+    if (!(*nearest(x) > 0)) entry.fail("the duration is not above 0", "state how long it lasts");
     return x;
 }
 

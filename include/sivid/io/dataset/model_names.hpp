@@ -26,6 +26,7 @@ struct model_names {
     std::string name;
     std::vector<name_unit> constants, states, inputs, channels;
     std::vector<interval> state_ranges; ///< one for each state
+    std::string time_unit = "s";
 };
 
 /// The names of a recorded model.

@@ -8,6 +8,7 @@
 #include <sivid/io/dataset/detail/dataset_tables.hpp>
 #include <sivid/io/dataset/mapping_entries.hpp>
 #include <sivid/io/dataset/model_names.hpp>
+#include <sivid/io/dataset/stated_unit.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/text/json_document.hpp>
@@ -18,8 +19,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace sivid {
 
@@ -33,7 +36,8 @@ public:
     [[nodiscard]] dataset read() const {
         auto const root = read_json(folder_ / "dataset.json");
         root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
-                         "scenarios", "effects", "assumptions"});
+                         "time_unit", "channel_units", "input_units", "scenarios", "effects",
+                         "assumptions"});
         mapping_entries::require_format(root, "sivid-dataset-1");
         dataset result;
         result.id = root.at("id").string();
@@ -45,7 +49,7 @@ public:
         if (auto const* fixed = root.find("fixed")) read_fixed(*fixed, result);
         result.max_outlier_fraction =
             mapping_entries::outlier_fraction(root.at("max_outlier_fraction"));
-        read_scenarios(root.at("scenarios"), result);
+        read_scenarios(root.at("scenarios"), read_units(root), result);
         if (auto const* list = root.find("effects")) result.effects = read_dataset_effects(*list);
         if (auto const* list = root.find("assumptions"))
             for (auto const& a : list->elements()) result.assumptions.push_back(a.string());
@@ -63,14 +67,10 @@ private:
             auto const& name = list.name_of(i);
             auto const index = constant(entry, name);
             entry.allow_only({"prior", "unit"});
-            auto const& unit = model_.constants[index].unit;
-            if (auto const* stated = entry.find("unit");
-                stated != nullptr && !same_unit(stated->any_string(), unit))
-                stated->fail(text_of("the unit ", in_quotes(stated->any_string()),
-                                     " differs from the model's ", in_quotes(unit)),
-                             "convert the prior and state the model's unit");
+            auto const& own = model_.constants[index];
             result.parameters.push_back(
-                {index, name, unit, mapping_entries::range(entry.at("prior"), "prior")});
+                {index, name, own.unit,
+                 range(entry.at("prior"), entry.find("unit"), own, "constant", "prior")});
         }
         if (result.parameters.empty())
             list.fail("no parameter is unknown",
@@ -86,14 +86,61 @@ private:
                 if (parameter.constant == index)
                     entry.fail(in_quotes(name) + " is fixed and a parameter",
                                "keep one of the two");
-            auto const value = entry.number();
-            result.fixed.push_back({index, value, *enclose(value)});
+            bool const plain = entry.type() != json_value::kind::object;
+            if (!plain) entry.allow_only({"value", "unit"});
+            auto const& number = plain ? entry : entry.at("value");
+            auto const value = number.number();
+            auto const unit =
+                unit_of(plain ? nullptr : entry.find("unit"), model_.constants[index], "constant");
+            auto const range = unit.range(value, value);
+            if (!range)
+                number.fail("beyond the range of double in the model's unit", "check the unit");
+            result.fixed.push_back({index, value, range->enclosure, unit.name()});
         }
     }
 
-    void read_scenarios(json_value const& list, dataset& result) const {
+    /// @param stated  the entry of the unit; nullptr: the model's
+    /// @param kind    of quantity, for messages
+    [[nodiscard]] static stated_unit unit_of(json_value const* stated, name_unit const& own,
+                                             std::string const& kind) {
+        if (stated == nullptr) return {};
+        return {*stated, own.unit, text_of("the ", kind, " ", in_quotes(own.name))};
+    }
+    /// A range in the unit that stands beside it.
+    [[nodiscard]] static stated_range range(json_value const& entry, json_value const* unit,
+                                            name_unit const& own, std::string const& kind,
+                                            std::string_view what) {
+        auto const plain = mapping_entries::range(entry, what);
+        auto const result = unit_of(unit, own, kind).range(plain.lower, plain.upper);
+        if (!result || mag(result->enclosure) > farthest_range)
+            entry.fail(text_of("in the model's unit the ", what, " reaches beyond 1e100"),
+                       "check its unit");
+        return *result;
+    }
+
+    [[nodiscard]] stated_units read_units(json_value const& root) const {
+        stated_units units;
+        if (auto const* time = root.find("time_unit"))
+            units.time = {*time, model_.time_unit, "the time"};
+        auto const read = [&](char const* key, std::vector<name_unit> const& names,
+                              std::string const& kind, std::vector<stated_unit>& to) {
+            auto const* list = root.find(key);
+            if (list == nullptr) return;
+            to.resize(names.size());
+            for (std::size_t i = 0; i < list->members().size(); ++i) {
+                auto const& entry = list->members()[i];
+                auto const k = mapping_entries::index_of(names, list->name_of(i), entry, kind);
+                to[k] = unit_of(&entry, names[k], kind);
+            }
+        };
+        read("channel_units", model_.channels, "channel", units.channels);
+        read("input_units", model_.inputs, "input", units.inputs);
+        return units;
+    }
+
+    void read_scenarios(json_value const& list, stated_units const& units, dataset& result) const {
         for (auto const& entry : list.elements()) {
-            auto next = read_scenario(entry);
+            auto next = read_scenario(entry, units);
             for (auto const& earlier : result.scenarios)
                 if (earlier.name == next.name)
                     entry.at("name").fail(
@@ -106,14 +153,17 @@ private:
             list.fail("no scenario has the role fit", "identification needs at least one");
     }
 
-    [[nodiscard]] scenario read_scenario(json_value const& entry) const {
+    [[nodiscard]] scenario read_scenario(json_value const& entry, stated_units const& units) const {
         entry.allow_only(
             {"name", "role", "duration", "inputs", "interpolation", "measurements", "initial"});
         scenario result;
         result.name = mapping_entries::file_name(entry.at("name"));
         result.role = entry.at("role").is_second_of("fit", "holdout") ? scenario_role::holdout
                                                                       : scenario_role::fit;
-        result.duration = *nearest(mapping_entries::duration(entry.at("duration")));
+        auto const duration = units.time.nearest(mapping_entries::duration(entry.at("duration")));
+        if (!duration || !(*duration > 0))
+            entry.at("duration").fail("no duration in the model's unit of time", "check time_unit");
+        result.duration = *duration;
 
         // A model without inputs needs no file of them.
         bool const driven = !model_.inputs.empty() || entry.find("inputs") != nullptr;
@@ -133,9 +183,9 @@ private:
         read_initial(entry.at("initial"), result);
         if (driven) {
             result.inputs =
-                read_inputs(csv_table::read(file("inputs")), model_, kind, result.duration);
+                read_inputs(csv_table::read(file("inputs")), model_, kind, result.duration, units);
         }
-        read_measurements(csv_table::read(measurements), model_, result);
+        read_measurements(csv_table::read(measurements), model_, result, units);
         if (result.measurements.empty())
             entry.at("measurements")
                 .fail("the scenario has no measurement", "every scenario needs at least one value");
@@ -149,16 +199,13 @@ private:
             auto const& entry = list.members()[i];
             auto const index =
                 mapping_entries::index_of(model_.states, list.name_of(i), entry, "state");
-            auto const range = mapping_entries::range(entry, "initial value");
-            result.initial[index] = {range.enclosure, range};
+            bool const plain = entry.type() != json_value::kind::object;
+            if (!plain) entry.allow_only({"range", "unit"});
+            auto const start =
+                range(plain ? entry : entry.at("range"), plain ? nullptr : entry.find("unit"),
+                      model_.states[index], "state", "initial value");
+            result.initial[index] = {start.enclosure, start};
         }
-    }
-
-    static bool same_unit(std::string const& a, std::string const& b) {
-        auto const none = [](std::string const& unit) {
-            return unit.empty() || unit == "1" || unit == "-";
-        };
-        return a == b || (none(a) && none(b));
     }
 
     std::filesystem::path folder_;

@@ -26,7 +26,8 @@ inline json_writer begun(char const* format, stored_prediction const& about,
     json_writer json;
     json.begin_object().members("format", format, "dataset", options.dataset);
     json.key("result").object("folder", options.source_folder, "sha256", options.source_digest);
-    json.members("scenario", options.scenario, "duration", about.problem.end);
+    json.members("scenario", options.scenario, "duration", about.problem.end, "time_unit",
+                 about.problem.model.about.time_unit);
     json.named("set", options.set);
     if (!options.law.empty()) {
         json.members("law", options.law).named("sensors", options.sensors, [&](auto const& sensor) {
@@ -230,7 +231,8 @@ SIVID_DECL std::string ranking_json(identification_problem const& about, ranking
     json_writer json;
     auto const& model = about.model.about;
     json.begin_object().members("format", "sivid-ranking-1", "dataset", options.dataset);
-    json.members("scenario", options.scenario).named("prior", names, about.prior);
+    json.members("scenario", options.scenario, "time_unit", model.time_unit);
+    json.named("prior", names, about.prior);
     json.members("assumptions", std::array{input_assumption(about.experiments)});
     json.members("complete", found.complete);
     json.list("channels", found.channels, [&](channel_effects const& c) {

@@ -26,6 +26,7 @@ public:
         if (!source.digest.empty())
             json_.key("source").object("folder", source.folder, "sha256", source.digest);
         if (!source.problem.empty()) json_.members("problem", source.problem);
+        json_.members("time_unit", d_->time_unit);
         gap();
         relations();
         places(d_->where);
@@ -78,14 +79,14 @@ private:
         json_.maybe("grows", c.grows, [&](noise_growth const& g) {
             bool const rate = g.what == noise_growth::with::rate;
             json_.begin_object().members("with", rate ? "rate" : "value");
-            json_.members("unit", rate ? "s" : "1");
+            json_.members("unit", g.unit);
             json_.members("coefficient", g.coefficient, "likelier", g.likelier);
             witness("witness", g.witness);
             witness("shown", g.shown);
             json_.end_object();
         });
         json_.maybe("correlated", c.correlated, [&](error_correlation const& r) {
-            json_.object("of_neighbours", r.of_neighbours, "seconds", r.seconds);
+            json_.object("of_neighbours", r.of_neighbours, "seconds", r.seconds, "unit", r.unit);
         });
         json_.maybe("steps", c.steps, [&](reading_steps const& s) {
             json_.object("size", s.size, "unit", s.unit, "cut_off", s.cut_off);

@@ -42,7 +42,7 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
     json.begin_object().members("format", "sivid-identification-1", "dataset", options.dataset);
     if (!options.source_digest.empty())
         json.key("source").object("folder", options.source_folder, "sha256", options.source_digest);
-    json.members("problem", problem_digest(problem));
+    json.members("problem", problem_digest(problem), "time_unit", about.time_unit);
     if (!options.effects.empty()) json.members("effects", options.effects);
     bool const inside = found.paving.count(box_verdict::inside) > 0 ||
                         share_of_whole(found.paving.inner_volume()).lower() > 0;

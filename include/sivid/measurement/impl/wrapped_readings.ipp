@@ -42,8 +42,8 @@ SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel, d
     for (auto const& m : samples)
         if (m.channel == channel &&
             std::isfinite(m.bound.lower()) != std::isfinite(m.bound.upper()))
-            throw std::invalid_argument("the reading at " + nearest_text(m.time) +
-                                        " s has one bound, so that its turn cannot be told: state "
+            throw std::invalid_argument("the reading at t = " + nearest_text(m.time) +
+                                        " has one bound, so that its turn cannot be told: state "
                                         "both, or leave it out");
     auto const own = measurement_detail::readings_of(samples, channel);
     auto const steps = measurement_detail::steps_between(own);
@@ -53,9 +53,9 @@ SIVID_DECL sampled_signal wraps_of(record const& samples, std::size_t channel, d
         double const before = own[k].time, after = own[k + 1].time;
         double const at = std::midpoint(before, after);
         if (!(before < at && at < after))
-            throw std::invalid_argument("there are readings on both sides of a leap at " +
-                                        nearest_text(after) +
-                                        " s: leave those on one side out, or follow the turns");
+            throw std::invalid_argument(
+                "there are readings on both sides of a leap at t = " + nearest_text(after) +
+                ": leave those on one side out, or follow the turns");
         times.push_back(at);
         counts.push_back(counts.back() - std::copysign(1.0, steps[k]));
     }

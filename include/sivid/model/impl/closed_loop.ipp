@@ -3,6 +3,7 @@
 #define SIVID_MODEL_IMPL_CLOSED_LOOP_IPP
 
 #include <sivid/model/closed_loop.hpp>
+#include <sivid/model/unit.hpp>
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/change/added_start.hpp>
@@ -327,7 +328,8 @@ SIVID_DECL closed_model closed_loop::finish() const {
         auto const& own = from.about.inputs[input];
         auto const rate = model_detail::rate_of(to, law, errors);
         result.slews.push_back(
-            {model_detail::add_channel(to, own.name + ".slew", ".slew", own.unit + "/s", rate),
+            {model_detail::add_channel(to, own.name + ".slew", ".slew",
+                                       rate_unit(own.unit, to.about.time_unit), rate),
              slews_.at(input)});
     }
     return result;

@@ -96,7 +96,8 @@ SIVID_DECL std::string describe(recorded_model const& model) {
     for (auto const& d : model.channel_delays) {
         delays.push_back({"channel " + about.channels[d.index].name, size_of(d)});
     }
-    return "model " + about.name + "\n" + describe_names(about) + section("constants", constants) +
+    return "model " + about.name + (about.time_unit == "s" ? "" : ", time in " + about.time_unit) +
+           "\n" + describe_names(about) + section("constants", constants) +
            (delays.empty() ? "" : section("delays", delays)) +
            (plays.empty() ? "" : section("plays", plays)) +
            (limits.empty() ? "" : section("rate limits", limits)) +

@@ -4,6 +4,7 @@
 
 #include <sivid/model/change/copy_equations.hpp>
 #include <sivid/model/effect.hpp>
+#include <sivid/model/unit.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,11 @@ SIVID_DECL interval effect_parameter::prior() const {
         return traits::mul(x, grows ? out : in);
     };
     return hull(moved(lower, upper), moved(upper, lower));
+}
+
+SIVID_DECL std::string effect_parameter::unit_in(model_description const& about) const {
+    if (time_power == 0) return unit;
+    return sivid::unit(unit).times(sivid::unit(about.time_unit), time_power).text();
 }
 
 SIVID_DECL effect model_detail::seen_effect(model_description const& about,
@@ -110,8 +116,8 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     for (auto const& e : effects) {
         first.push_back(constants.size());
         for (auto const& p : e.parameters) {
-            constants.push_back(
-                {e.name + "." + p.name, p.unit, literal{enclose(p.neutral), nearest(p.neutral)}});
+            constants.push_back({e.name + "." + p.name, p.unit_in(base.about),
+                                 literal{enclose(p.neutral), nearest(p.neutral)}});
         }
         if (!e.only_in.empty()) result.about.inputs.push_back({e.name, "1"});
         if (e.wraps) result.about.inputs.push_back({e.name + ".wraps", "1"});

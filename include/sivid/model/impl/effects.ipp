@@ -20,6 +20,14 @@ SIVID_DECL effect one(std::string name, std::string parameter, std::string unit,
     return e;
 }
 
+/// The same, for a parameter whose unit is the model's unit of time to a power.
+inline effect time(std::string name, std::string parameter, int power, range const& prior,
+                   std::string about, int order = 0) {
+    auto e = one(std::move(name), std::move(parameter), "1", prior, std::move(about), order);
+    e.parameters.front().time_power = power;
+    return e;
+}
+
 inline void need_two(std::vector<std::string> const& channels, char const* what,
                      std::string const& name) {
     if (channels.size() != 2)
@@ -36,14 +44,14 @@ inline std::string all_of(std::vector<std::string> const& channels) {
 } // namespace detail
 
 SIVID_DECL effect input_delay(std::string const& name, std::string const& input, range const& tau) {
-    auto e = detail::one(name, "tau", "s", tau, "pure delay of the input " + input, 0);
+    auto e = detail::time(name, "tau", 1, tau, "pure delay of the input " + input, 0);
     e.on_inputs = [input](effect_scope& m) { m.remember(input, memory_kind::delay); };
     return e;
 }
 
 SIVID_DECL effect input_clock_drift(std::string const& name, std::string const& input,
                                     range const& r) {
-    auto e = detail::one(name, "r", "s/s", r, "clock of the input " + input + " that runs slow", 0);
+    auto e = detail::one(name, "r", "1", r, "clock of the input " + input + " that runs slow", 0);
     e.on_inputs = [input](effect_scope& m) { m.remember(input, memory_kind::drift); };
     return e;
 }
@@ -76,7 +84,7 @@ SIVID_DECL effect input_rate_limit(std::string const& name, std::string const& i
 
 SIVID_DECL effect input_lag(std::string const& name, std::string const& input,
                             std::string const& unit, range const& tau, double limit, bool rests) {
-    auto e = detail::one(name, "tau", "s", tau, "first-order lag of the input " + input, 2);
+    auto e = detail::time(name, "tau", 1, tau, "first-order lag of the input " + input, 2);
     e.on_inputs = [input, unit, limit, rests, name](effect_scope& m) {
         auto& u = m.input(input);
         auto const d = m.add_state(name + "." + input, unit, limit, rests ? expression(0) : u);
@@ -119,7 +127,7 @@ SIVID_DECL effect constant_rate(std::string const& name, std::string const& stat
 
 SIVID_DECL effect linear_damping(std::string const& name, std::string const& state,
                                  range const& k) {
-    auto e = detail::one(name, "k", "1/s", k, "linear damping in the equation of " + state);
+    auto e = detail::time(name, "k", -1, k, "linear damping in the equation of " + state);
     e.on_rates = [state](effect_scope& m) { m.rate(state) -= m.parameter() * m.state(state); };
     return e;
 }
@@ -195,7 +203,7 @@ SIVID_DECL effect lugre_friction(std::string const& name, std::string const& sta
 }
 
 SIVID_DECL effect drift(std::string const& name, std::string const& constant, range const& k) {
-    auto e = detail::one(name, "k", "1/s", k, "slow drift of the constant " + constant);
+    auto e = detail::time(name, "k", -1, k, "slow drift of the constant " + constant);
     e.on_inputs = [constant](effect_scope& m) {
         m.constant(constant) *= 1 + m.parameter() * m.time();
     };
@@ -303,8 +311,7 @@ SIVID_DECL effect sensor_scale(std::string const& name, std::vector<std::string>
 
 SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::string> const& channels,
                                  range const& tau) {
-    auto e =
-        detail::one(name, "tau", "s", tau, "latency of the sensor " + detail::all_of(channels));
+    auto e = detail::time(name, "tau", 1, tau, "latency of the sensor " + detail::all_of(channels));
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.show_late(y, memory_kind::delay);
     };
@@ -313,7 +320,7 @@ SIVID_DECL effect sensor_latency(std::string const& name, std::vector<std::strin
 
 SIVID_DECL effect sensor_clock_drift(std::string const& name,
                                      std::vector<std::string> const& channels, range const& r) {
-    auto e = detail::one(name, "r", "s/s", r,
+    auto e = detail::one(name, "r", "1", r,
                          "clock of the sensor " + detail::all_of(channels) + " that runs slow");
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.show_late(y, memory_kind::drift);
@@ -323,8 +330,7 @@ SIVID_DECL effect sensor_clock_drift(std::string const& name,
 
 SIVID_DECL effect sensor_lag(std::string const& name, std::vector<std::string> const& channels,
                              range const& tau) {
-    auto e =
-        detail::one(name, "tau", "s", tau, "lag of the sensor " + detail::all_of(channels), -1);
+    auto e = detail::time(name, "tau", 1, tau, "lag of the sensor " + detail::all_of(channels), -1);
     e.on_channels = [channels](effect_scope& m) {
         for (auto const& y : channels) m.lag_channel(y);
     };

@@ -3,6 +3,7 @@
 #define SIVID_MODEL_IMPL_MODEL_IPP
 
 #include <sivid/model/model.hpp>
+#include <sivid/model/unit.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -30,9 +31,17 @@ SIVID_DECL model_description model_detail::described(std::string_view name,
                                                      std::span<state_quantity const> states,
                                                      std::span<quantity const> inputs,
                                                      std::span<quantity const> channels,
-                                                     std::span<constant_quantity const> constants) {
+                                                     std::span<constant_quantity const> constants,
+                                                     std::string_view time_unit) {
     model_description about;
     about.name = std::string(name);
+    about.time_unit = std::string(time_unit);
+    auto fault = unit(time_unit).fault();
+    if (fault.empty() && unit(time_unit) == unit()) fault = "times need one";
+    if (!fault.empty())
+        throw std::invalid_argument("model '" + about.name + "': '" + about.time_unit +
+                                    "' is no unit of time: " + fault +
+                                    "; write \"s\", \"ms\" or \"h\", for instance");
     for (auto const& s : states) {
         about.states.push_back(
             {std::string(s.name), std::string(s.unit), s.limit, std::string(s.equation)});

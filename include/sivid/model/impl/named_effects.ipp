@@ -6,6 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/model/effects.hpp>
+#include <sivid/model/unit.hpp>
 #include <sivid/number/decimal.hpp>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ inline double time_behind(std::string_view sign, std::string& experiment, double
     if (at == std::string::npos) return otherwise;
     auto const text = experiment.substr(at + sign.size());
     auto const t = parse_nearest(text);
-    if (!t) throw std::invalid_argument("effect: '" + text + "' is no time in seconds");
+    if (!t) throw std::invalid_argument("effect: '" + text + "' is no time");
     experiment.resize(at);
     return *t;
 }
@@ -120,9 +121,11 @@ SIVID_DECL effect sensor_fault(std::string const& name, model_description const*
         effect joint;
         for (auto const& y : channels) {
             auto const unit = unit_of(y);
-            auto one = drifts ? kinds::sensor_drift(name, y, unit.empty() ? unit : unit + "/s",
-                                                    f.either_way())
-                              : kinds::sensor_bias(name, y, unit, f.either_way());
+            auto one = drifts
+                           ? kinds::sensor_drift(
+                                 name, y, unit.empty() ? unit : rate_unit(unit, about->time_unit),
+                                 f.either_way())
+                           : kinds::sensor_bias(name, y, unit, f.either_way());
             joint.name = name;
             joint.about += (joint.about.empty() ? "" : ", ") + one.about;
             joint.parameters.push_back(one.parameters.front());
@@ -155,7 +158,8 @@ SIVID_DECL effect sensor_fault(std::string const& name, model_description const*
     auto const unit = unit_of(two[0]);
     if (arm) return kinds::sensor_lever_arm(name, two, channels[2], unit, f.either_way());
     if (beside) {
-        auto const length = unit.ends_with("/s") ? unit.substr(0, unit.size() - 2) : unit;
+        auto const length =
+            unit.empty() ? unit : sivid::unit(unit).times(sivid::unit(about->time_unit), 1).text();
         return kinds::sensor_velocity_arm(name, two, channels[2], length, f.either_way());
     }
     f.fail("there are sensor_bias, drift, scale, latency, lag, saturation, wrap, rotation, swap, "

@@ -24,7 +24,8 @@ struct run_reach {
         double share = 0;
     };
     std::string scenario;
-    double begin = 0, until = 0, end = 0; ///< [s]; all states are bounded up to `until`
+    std::string time_unit = "s";          ///< the model's
+    double begin = 0, until = 0, end = 0; ///< in it; all states are bounded up to `until`
     std::string state, unit;              ///< the widest at `until`, against its limit
     double width = 0;                     ///< of that state, there
     std::vector<cause> causes;            ///< the largest first, at least a tenth each

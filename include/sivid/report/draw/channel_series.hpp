@@ -43,6 +43,7 @@ struct channel_series {
     std::vector<measured_sample> measured{};
     std::vector<tube_piece> tube{}; ///< in order of time
     std::vector<point> reference{}; ///< (t, value), not validated
+    std::string time_unit = "s";
 };
 
 namespace detail {

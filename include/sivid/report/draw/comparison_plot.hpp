@@ -24,6 +24,7 @@ struct comparison_series {
     std::vector<tube_piece> tube{};     ///< predicted with the effect
     std::vector<point> misfit_before{}; ///< (t, |y - m| / bound)
     std::vector<point> misfit_after{};
+    std::string time_unit = "s";
 };
 
 namespace detail {

@@ -20,6 +20,7 @@ struct heat_map {
     std::vector<std::vector<double>> values{}; ///< [row][column]; NaN: nothing known
     std::string quantity{};
     double threshold = 1; ///< above it a value is painted orange and crossed
+    std::string time_unit = "s";
 };
 
 struct heat_map_options {

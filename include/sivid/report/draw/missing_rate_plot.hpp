@@ -29,6 +29,7 @@ struct missing_rate_series {
     std::string unit{};
     std::vector<rate_sample> estimate{};
     std::vector<tube_piece> certified{}; ///< proved bounds of the mean over each window
+    std::string time_unit = "s";
 };
 
 namespace detail {

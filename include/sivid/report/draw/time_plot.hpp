@@ -32,8 +32,9 @@ time_plot_legend(std::vector<channel_series> const& all);
 namespace detail {
 
 /// A frame over time.
-[[nodiscard]] inline axes time_axes(time_plot_options const& o, range const& time, axis y) {
-    return {{"time", "s", is_empty(o.time) ? time : o.time},
+[[nodiscard]] inline axes time_axes(time_plot_options const& o, range const& time,
+                                    std::string const& unit, axis y) {
+    return {{"time", unit, is_empty(o.time) ? time : o.time},
             std::move(y),
             {.width = o.width, .height = o.height, .title = o.title}};
 }

@@ -45,7 +45,8 @@ SIVID_DECL std::string answer_sentence(stored_prediction const& about, verificat
         (found.open.size() == 1 ? " box is open; " : " boxes are open; the largest ") + "is " +
         std::string{to_string(b.why)};
     if (b.why == open_reason::not_enclosed)
-        text += " (motions are enclosed up to t = " + exact_text(b.reached) + " s)";
+        text += " (motions are enclosed up to t = " + exact_text(b.reached) + " " +
+                about.problem.model.about.time_unit + ")";
     text += ", at ";
     for (std::size_t j = 0; j < b.parameters.size(); ++j)
         text += (j > 0 ? ", " : "") + formula_text(about.sides[j]) + " in " +
@@ -80,7 +81,8 @@ SIVID_DECL page prediction_page(stored_prediction const& about, prediction const
               .lead = o.about.empty() ? "All motions that the identification leaves." : o.about}};
     out.banner(found.complete ? outcome::proved : outcome::undecided,
                found.complete ? "Proved for the whole scenario"
-                              : "Proved up to t = " + exact_text(found.reached) + " s",
+                              : "Proved up to t = " + exact_text(found.reached) + " " +
+                                    about.problem.model.about.time_unit,
                found.complete
                    ? "Every motion runs within the tubes at every instant."
                    : "The enclosure ends before the scenario does, or has gaps: a smaller set of "

@@ -40,6 +40,7 @@ inline void add_inputs(page& out, stored_prediction const& about, tried_manoeuvr
         motion_series line;
         line.tube.name = u.name;
         line.tube.unit = u.unit;
+        line.tube.time_unit = about.problem.model.about.time_unit;
         double last = 0;
         for (std::size_t k = 0; k < s->times().size(); ++k) {
             line.single.push_back({s->times()[k], s->values()[k]});
@@ -88,7 +89,8 @@ inline void add_plan(page& out, stored_prediction const& about, design_answer co
                 {channels[c].name, given_text(a.plan.errors[c]), unit_text(channels[c].unit)});
     }
     t.caption = "Measured at " + count_text(a.plan.times.size()) + " instants, the last one at " +
-                given_text(a.plan.times.back()) + " s.";
+                given_text(a.plan.times.back()) + unit_suffix(about.problem.model.about.time_unit) +
+                ".";
     out.section("What is measured");
     out.add(t);
 }

@@ -38,7 +38,7 @@ inline void add_places(page& out, diagnosis_view const& v) {
         constexpr std::size_t most = 12;
         std::vector<std::string> lines;
         for (std::size_t i = 0; i < std::min(most, v.relations.size()); ++i) {
-            lines.push_back(relation_words(v.relations[i]));
+            lines.push_back(relation_words(v.relations[i], v.time_unit));
         }
         if (v.relations.size() > most) {
             lines.push_back(count_text(v.relations.size() - most) +
@@ -86,7 +86,7 @@ inline void add_remainder(page& out, diagnosis_view const& v) {
     out.prose(capitalised(remainder_clause(v)) + ".");
     std::vector<std::string> lines;
     for (suspected_place const& p : v.remainder->where) {
-        lines.push_back(capitalised(place_clause(p)) + ".");
+        lines.push_back(capitalised(place_clause(p, v.time_unit)) + ".");
     }
     if (!v.remainder->effects.empty()) out.bullets(lines);
     for (figure const& f :

@@ -320,7 +320,7 @@ SIVID_DECL std::string banner_sentence(diagnosis_view const& v) {
     } else if (v.answer == answer_kind::open) {
         parts.push_back(open_clause(v));
         if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));
-        if (!v.where.empty()) parts.push_back(place_clause(v.where.front()));
+        if (!v.where.empty()) parts.push_back(place_clause(v.where.front(), v.time_unit));
     } else if (v.answer == answer_kind::unexplained) {
         auto const excluded = std::count_if(v.causes.begin(), v.causes.end(), [](cause const& c) {
             return !c.effects.empty() && c.verdict == cause_verdict::excluded;
@@ -333,9 +333,9 @@ SIVID_DECL std::string banner_sentence(diagnosis_view const& v) {
                  : std::string{}));
         if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));
         parts.push_back(remainder_clause(v));
-        if (!v.where.empty()) parts.push_back(place_clause(v.where.front()));
+        if (!v.where.empty()) parts.push_back(place_clause(v.where.front(), v.time_unit));
     } else if (v.gap != gap_verdict::none && !v.where.empty()) {
-        parts.push_back(place_clause(v.where.front()));
+        parts.push_back(place_clause(v.where.front(), v.time_unit));
     }
     std::string out;
     for (std::string const& p : parts) out += p.empty() ? "" : (out.empty() ? "" : "; ") + p;

@@ -120,7 +120,7 @@ inline void add_outliers(page& out, identification_view const& v) {
     out.add(allowed);
     table found{.columns = {{"scenario", column_kind::symbol},
                             {"channel", column_kind::symbol},
-                            {"time [s]", column_kind::number},
+                            {"time [" + unit_text(v.time_unit) + "]", column_kind::number},
                             {"what is known", column_kind::note}}};
     constexpr std::size_t most = 100;
     for (outlier_view const& o : v.outliers) {

@@ -83,6 +83,7 @@ private:
     void add_result() {
         view_.dataset = options_.dataset;
         view_.model = about().name;
+        view_.time_unit = about().time_unit;
         view_.verdict = found_.verdict == verdict::consistent     ? outcome::proved
                         : found_.verdict == verdict::inconsistent ? outcome::refuted
                                                                   : outcome::undecided;
@@ -113,14 +114,15 @@ private:
                             {}};
         if (found_.windows) {
             auto const& w = *found_.windows;
-            std::string const what = w.longest > 0 ? count_text(w.windows) +
-                                                         " windows of the records, the longest " +
-                                                         given_text(w.longest) + " s"
-                                                   : "";
-            std::string const lines = w.input_period > 0 ? "runs that see the inputs as lines of " +
-                                                               given_text(w.input_period) +
-                                                               " s, and a bound of what these leave"
-                                                         : "";
+            std::string const what =
+                w.longest > 0 ? count_text(w.windows) + " windows of the records, the longest " +
+                                    given_text(w.longest) + " " + about().time_unit
+                              : "";
+            std::string const lines =
+                w.input_period > 0
+                    ? "runs that see the inputs as lines of " + given_text(w.input_period) + " " +
+                          about().time_unit + ", and a bound of what these leave"
+                    : "";
             bool const runs = !what.empty() || !lines.empty();
             view_.statistics.before =
                 !runs && !(w.left < 1)
@@ -220,7 +222,8 @@ private:
             if (auto const& why = motion_->tubes[e]->failure()) {
                 view_.warnings.push_back(
                     std::string{"The drawn enclosure of scenario "} + problem_.experiments[e].name +
-                    " ends early: " + why->message(about().states[why->component].name) + ".");
+                    " ends early: " +
+                    why->message(about().states[why->component].name, about().time_unit) + ".");
             }
         }
     }

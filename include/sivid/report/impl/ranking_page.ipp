@@ -67,11 +67,13 @@ SIVID_DECL std::string group_text(identification_problem const& about,
     if (group.experiment)
         what += (what.empty() ? "" : " of ") + about.experiments[*group.experiment].name;
     auto const second = [](double t) { return exact_text(t); }; // measurements may be close by
+    auto const& unit = about.model.about.time_unit;
     bool const from = std::isfinite(group.from), to = std::isfinite(group.to);
     if (from && to)
-        when = second(group.from) + " to " + second(group.to) + " s";
+        when = second(group.from) + " to " + second(group.to) + " " + unit;
     else if (from || to)
-        when = from ? "from " + second(group.from) + " s on" : "before " + second(group.to) + " s";
+        when = from ? "from " + second(group.from) + " " + unit + " on"
+                    : "before " + second(group.to) + " " + unit;
     if (what.empty()) return from && to ? when : "all " + when;
     return what + (when.empty() ? "" : ", " + when);
 }

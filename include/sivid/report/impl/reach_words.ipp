@@ -29,9 +29,7 @@ inline std::string name_of(run_reach::cause const& c) {
 }
 
 /// A time that was enclosed, rounded down; what was meant is the decimal close to it.
-inline std::string at_least_brief(double seconds) {
-    return brief(seconds * (1 + 1e-12), rounding::down);
-}
+inline std::string at_least_brief(double time) { return brief(time * (1 + 1e-12), rounding::down); }
 
 /// "62 % of it by D33/Iz, 20 % by the start of r"
 inline std::string causes_text(run_reach const& r) {
@@ -48,8 +46,8 @@ inline std::string causes_text(run_reach const& r) {
 inline std::string end_text(run_reach const& r) {
     auto const carried = r.until - r.begin;
     auto words = carried > 0 ? "over all that is left, trajectories are enclosed for " +
-                                   at_least_brief(carried) + " of " + brief(r.end - r.begin) +
-                                   " s only; there "
+                                   at_least_brief(carried) + " of " + brief(r.end - r.begin) + " " +
+                                   r.time_unit + " only; there "
                              : std::string{"over all that is left, trajectories are enclosed "
                                            "nowhere; at the start "};
     words += r.state + " is " + brief(r.width) + unit_suffix(r.unit) + " wide";
@@ -59,7 +57,7 @@ inline std::string end_text(run_reach const& r) {
 inline std::string what_ends(run_reach const& r) {
     auto const carried = r.until - r.begin;
     auto words = end_text(r) + ". Scenarios shorter than " +
-                 brief(carried > 0 ? carried : r.end - r.begin) + " s";
+                 brief(carried > 0 ? carried : r.end - r.begin) + " " + r.time_unit;
     if (!r.causes.empty()) words += ", or a narrower range for " + name_of(r.causes.front()) + ",";
     return words + " may tell more";
 }
@@ -71,7 +69,8 @@ inline std::string what_hardly_moves(run_reach const& r) {
         (r.instants < r.measured
              ? " (of " + count_text(r.instants) + " instants among " + count_text(r.measured) + ")"
              : std::string{}) +
-        (r.complete() ? "" : " of the first " + at_least_brief(r.until - r.begin) + " s") +
+        (r.complete() ? ""
+                      : " of the first " + at_least_brief(r.until - r.begin) + " " + r.time_unit) +
         " by more than " + rounded_text(r.spread * (1 + 1e-9), rounding::up, {.significant = 2}) +
         " of its error bound: such data hardly tell them apart; smaller bounds, or "
         "motions that depend more on them, would";

@@ -36,7 +36,7 @@ TEST_CASE("equation, sensor and input are told apart") {
         CHECK(p.kind == place_kind::equation);
         CHECK(p.name == "yaw");
         CHECK(p.law == "abs(r)*r");
-        CHECK(p.unit == "rad/s/s");
+        CHECK(p.unit == "rad/s^2");
         CHECK(found.inflation <= 1);
         CHECK(p.rates.size() == 5);
         CHECK(p.from < p.to);

@@ -81,7 +81,7 @@ struct sensor_problem {
         std::size_t delay = 0;
         if (late) {
             result.faults[p].push_back(sides.size());
-            delay = add(fault + " latency", "s", interval(0.0, longest_delay));
+            delay = add(fault + " latency", model.about.time_unit, interval(0.0, longest_delay));
         }
         for (auto const k : places[p].members) {
             double const range = high[k] > low[k] ? high[k] - low[k] : std::abs(high[k]);

@@ -9,6 +9,7 @@
 #include <sivid/approximate/place/detail/law_search.hpp>
 #include <sivid/approximate/place/detail/missing_rate.hpp>
 #include <sivid/approximate/place/detail/place_search.hpp>
+#include <sivid/model/unit.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -146,7 +147,7 @@ private:
             p.unit = about.inputs[target].unit;
             target += about.states.size();
         } else {
-            p.unit = about.states[target].unit + "/s";
+            p.unit = rate_unit(about.states[target].unit, about.time_unit);
             p.name = equation_name(p.name);
         }
         for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
@@ -217,7 +218,7 @@ private:
         } else if (by_delay > by_offset) {
             p.law = "latency";
             p.missing = delay;
-            p.unit = "s";
+            p.unit = problem_->model.about.time_unit;
         }
     }
 

@@ -224,14 +224,15 @@ protected:
         words_.fail_at(position, "unknown name '" + name + "'", "known: " + known);
     }
 
-    /// A time in s, or `end`.
+    [[nodiscard]] std::string const& time_unit() const { return model_.about.time_unit; }
+    /// A time in the model's unit, or `end`.
     double instant(double end) {
         if (words_.take("end")) return end;
         auto const position = words_.position();
         auto const text = words_.take_number();
         auto const time = text ? parse_nearest(*text) : std::nullopt;
         if (!time || !std::isfinite(*time) || *time < 0)
-            words_.fail_at(position, "a time in seconds is needed here",
+            words_.fail_at(position, "a time in " + time_unit() + " is needed here",
                            "write a number of 0 or more, such as 0.5, or end");
         return *time;
     }

@@ -163,7 +163,9 @@ private:
         if (!words_.take("at")) return of;
         double const time = instant(end_);
         if (time > end_)
-            words_.fail_at(position, "this time is beyond the end, " + nearest_text(end_, 6) + " s",
+            words_.fail_at(position,
+                           "this time is beyond the end, " + nearest_text(end_, 6) + " " +
+                               time_unit(),
                            "choose an earlier one, or a scenario that lasts longer");
         if (of.is_formula) {
             return formula({.what = kind::at,
@@ -269,13 +271,13 @@ private:
         if (!words_.take("[")) return;
         auto const position = words_.position();
         p.from = instant(end_);
-        words_.need(",", "write the window as [from, to] in seconds");
+        words_.need(",", "write the window as [from, to] in " + time_unit());
         if (words_.peek("end")) {
             static_cast<void>(words_.take("end"));
         } else {
             p.to = instant(end_);
         }
-        words_.need("]", "write the window as [from, to] in seconds");
+        words_.need("]", "write the window as [from, to] in " + time_unit());
         if (p.to < p.from)
             words_.fail_at(position, "the window ends before it begins", "write [from, to]");
     }
@@ -316,7 +318,8 @@ private:
                     words_.fail_at(
                         p.position,
                         "its window reaches to " + nearest_text(std::max(last, q.to + p.from), 6) +
-                            " s, and the motion ends at " + nearest_text(end_, 6) + " s",
+                            " " + time_unit() + ", and the motion ends at " +
+                            nearest_text(end_, 6) + " " + time_unit(),
                         "shorten the window, or that of the formula around it; or take a scenario "
                         "that lasts longer");
                 bool const begins_now = p.what == kind::until;

@@ -7,6 +7,7 @@
 #include <sivid/approximate/place/place.hpp>
 #include <sivid/compiled.hpp>
 #include <sivid/model/named_effects.hpp>
+#include <sivid/model/unit.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -106,11 +107,15 @@ private:
         if (!p.askew) return;
         add("sensor_rotation", names, "0.5");
         add("sensor_swap", names, "1.2"); // beyond interchanged plugs
-        bool const moving = about_->channels[p.members[0]].unit.ends_with("/s");
+        unit const angle("rad"), time(about_->time_unit);
+        auto const rate = [&](std::string const& text, unit const& of) {
+            return unit(text).times(time, 1).in(of).has_value();
+        };
+        bool const moving = rate(about_->channels[p.members[0]].unit, unit("m"));
         for (auto const& s : about_->states) {
             if (s.unit == "rad" && !moving)
                 add("sensor_lever_arm", names + ":" + s.name, round_size(range / 2));
-            if (s.unit == "rad/s" && moving)
+            if (rate(s.unit, angle) && moving)
                 add("sensor_velocity_arm", names + ":" + s.name, round_size(range / reach_of(s)));
         }
     }

@@ -62,7 +62,8 @@ private:
             auto const& all = run_->base.experiments;
             auto const s = index_of(all, e.only_in[k], "experiment");
             auto const add = [&](auto& to, double at, interval const& range) {
-                to.push_back({all[s].name, "s", at, range, measured_time(all[s])});
+                to.push_back({all[s].name, run_->base.model.about.time_unit, at, range,
+                              measured_time(all[s])});
             };
             if (k < e.since.size() && e.since[k] > effect::from_start)
                 add(c.onsets, e.since[k], found.times[s].on);

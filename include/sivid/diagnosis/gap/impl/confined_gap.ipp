@@ -257,7 +257,9 @@ private:
                 records[e].errors.push_back(at.residuals[e][k]);
             }
         }
-        return correlation_of(records);
+        auto found = correlation_of(records);
+        if (found) found->unit = p_->model.about.time_unit;
+        return found;
     }
     [[nodiscard]] named_witness witness_of(least_growth const& g) const {
         return named(*p_, g.proved.witness->parameters, g.proved.witness->starts);
@@ -293,8 +295,12 @@ private:
             if (!(likelier > clearly + std::sqrt(times.count())) ||
                 (best && !(likelier > best->likelier)))
                 continue;
-            best = {what, interval_traits<interval>::bounds(own->lower, own->upper), likelier,
-                    witness_of(*own), named(*p_, shown.parameters, shown.starts)};
+            best = {what,
+                    interval_traits<interval>::bounds(own->lower, own->upper),
+                    likelier,
+                    witness_of(*own),
+                    named(*p_, shown.parameters, shown.starts),
+                    what == noise_growth::with::rate ? p_->model.about.time_unit : "1"};
         }
         return best;
     }

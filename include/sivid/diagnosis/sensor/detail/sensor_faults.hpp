@@ -269,11 +269,11 @@ delay_slices(identification_problem const& problem, faulty_channel const& f,
         auto const most = [](interval const& x) { return nearest_text(mag(x), 3); };
         text += std::string{k == 0 ? " " : " / "} + c.name + ": scale " + most(f.scale) +
                 ", offset " + most(f.offset) + " " + c.unit + ", drift " + most(f.drift) + " " +
-                c.unit + "/s";
+                rate_unit(c.unit, about.time_unit);
         for (auto const& [m, share] : f.mixing) {
             text += ", share of " + about.states[m].name + " " + most(share);
         }
-        text += ", delay " + nearest_text(f.latency, 3) + " s";
+        text += ", delay " + nearest_text(f.latency, 3) + " " + about.time_unit;
     }
     return text;
 }

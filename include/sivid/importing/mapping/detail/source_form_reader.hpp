@@ -3,8 +3,11 @@
 #define SIVID_IMPORTING_MAPPING_DETAIL_SOURCE_FORM_READER_HPP
 
 #include <sivid/importing/mapping/detail/column_entries.hpp>
+#include <sivid/io/dataset/stated_unit.hpp>
+#include <sivid/model/unit.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -96,18 +99,13 @@ namespace sivid {
     }
     if (auto const* unit = entry.find("unit")) {
         time.unit = unit->string();
-        for (auto const& [name, factor] : {std::pair{"s", "1"},
-                                           {"ms", "1e-3"},
-                                           {"us", "1e-6"},
-                                           {"ns", "1e-9"},
-                                           {"min", "60"},
-                                           {"h", "3600"}})
-            if (time.unit == name)
-                time.to_seconds.factor_lower = time.to_seconds.factor_upper =
-                    *exact_decimal::parse(factor);
-        if (time.unit != "s" && time.to_seconds.text().empty())
+        auto const ratio = sivid::unit(time.unit).in(sivid::unit("s"));
+        if (auto const factor = ratio ? unit_conversion::of(*ratio) : std::nullopt;
+            factor && factor->divisor == 1 && factor->factor_is_exact())
+            time.to_seconds = *factor;
+        else
             unit->fail(text_of("unknown unit ", in_quotes(time.unit)),
-                       "write s, ms, us, ns, min or h");
+                       "write s, ms, us, ns, min, h or d");
     }
     if (auto const* bits = entry.find("counter_bits")) {
         if (!serial) bits->fail("a counter in a table", "counters that wrap need a serial source");
@@ -136,7 +134,10 @@ namespace sivid {
     quantity_mapping q;
     q.name = mapping_entries::name(entry, name);
     q.column = column(entry.at("column"));
-    if (auto const* unit = entry.find("unit")) q.unit = unit->any_string();
+    if (auto const* unit = entry.find("unit")) {
+        q.unit = unit->any_string();
+        (void)read_unit(*unit);
+    }
     if (auto const* factor = entry.find("factor")) {
         if (factor->type() == json_value::kind::array) {
             auto const r = range(*factor);

@@ -3,7 +3,7 @@
 #define SIVID_IMPORTING_SCENARIO_DETAIL_START_PROPOSAL_HPP
 
 #include <sivid/importing/detail/import_mapping.hpp>
-#include <sivid/importing/mapping/detail/unit_conversion.hpp>
+#include <sivid/io/dataset/unit_conversion.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/paving/response/relaxed_intersection.hpp>
 

@@ -2,7 +2,7 @@
 #ifndef SIVID_IMPORTING_TABLE_DETAIL_MATLAB_FILE_HPP
 #define SIVID_IMPORTING_TABLE_DETAIL_MATLAB_FILE_HPP
 
-#include <sivid/importing/mapping/detail/unit_conversion.hpp>
+#include <sivid/io/dataset/unit_conversion.hpp>
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/text/text_file.hpp>
 

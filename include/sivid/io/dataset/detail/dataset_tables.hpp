@@ -3,6 +3,7 @@
 #define SIVID_IO_DATASET_DETAIL_DATASET_TABLES_HPP
 
 #include <sivid/io/dataset/model_names.hpp>
+#include <sivid/io/dataset/stated_unit.hpp>
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/text/csv_table.hpp>
 #include <sivid/number/text/joined.hpp>
@@ -56,11 +57,22 @@ find_columns(csv_table const& table, std::vector<name_unit> const& names, std::s
     return columns;
 }
 
+/// What a conversion gives for a cell.
+template <class T>
+[[nodiscard]] T converted(csv_table const& table, csv_table::row const& row, std::size_t column,
+                          std::optional<T> value) {
+    if (!value)
+        table.fail(row.line, column, "the number is beyond the range of double in the model's unit",
+                   "check the unit that the data set states");
+    return *std::move(value);
+}
+
 /// The times of a table, strictly increasing.
-[[nodiscard]] inline std::vector<double> read_times(csv_table const& table) {
+[[nodiscard]] inline std::vector<double> read_times(csv_table const& table,
+                                                    stated_unit const& unit) {
     std::vector<double> times;
     for (auto const& row : table.rows()) {
-        auto const time = *nearest(table.number(row, 0));
+        auto const time = converted(table, row, 0, unit.nearest(table.number(row, 0)));
         if (!times.empty() && !(times.back() < time))
             table.fail(row.line, 0,
                        text_of("the time ", in_quotes(row.cells[0]),
@@ -85,8 +97,10 @@ find_columns(csv_table const& table, std::vector<name_unit> const& names, std::s
 
 /// Reads `t,<input>[,<input>_err],...`: every input of the model, from 0 or before to `duration` or
 /// after.
-[[nodiscard]] inline std::vector<dataset_input>
-read_inputs(csv_table const& table, model_names const& model, interpolation kind, double duration) {
+[[nodiscard]] inline std::vector<dataset_input> read_inputs(csv_table const& table,
+                                                            model_names const& model,
+                                                            interpolation kind, double duration,
+                                                            stated_units const& units = {}) {
     auto const columns = find_columns(table, model.inputs, "input");
     for (std::size_t i = 0; i < model.inputs.size(); ++i) {
         bool found = false;
@@ -96,11 +110,12 @@ read_inputs(csv_table const& table, model_names const& model, interpolation kind
                        text_of("the input ", in_quotes(model.inputs[i].name), " is missing"),
                        "add its column");
     }
-    auto const times = read_times(table);
+    auto const times = read_times(table, units.time);
 
     std::vector<dataset_input> inputs;
     for (auto const& q : columns) {
         std::vector<double> knots, values;
+        auto const& unit = stated_units::of(units.inputs, q.index);
         dataset_input input;
         for (std::size_t r = 0; r < table.rows().size(); ++r) {
             auto const& row = table.rows()[r];
@@ -110,10 +125,14 @@ read_inputs(csv_table const& table, model_names const& model, interpolation kind
                 continue;
             }
             knots.push_back(times[r]);
-            values.push_back(*nearest(table.number(row, q.value)));
+            auto value = table.number(row, q.value);
+            values.push_back(converted(table, row, q.value, unit.nearest(value)));
             if (!q.error) continue;
-            auto error = read_error_bound(table, row, *q.error);
-            input.error.push_back(upper(*enclose(error)));
+            auto error =
+                converted(table, row, *q.error,
+                          unit.error_of(values.back(), {std::move(value),
+                                                        read_error_bound(table, row, *q.error)}));
+            input.error.push_back(upper(converted(table, row, *q.error, enclose(error))));
             input.stated_error.push_back(std::move(error));
         }
         auto const last_line =
@@ -135,7 +154,8 @@ read_inputs(csv_table const& table, model_names const& model, interpolation kind
 
 /// Reads `t,<channel>,<channel>_err,...` into the scenario: times within [0, duration]; an empty
 /// cell is a missing sample.
-inline void read_measurements(csv_table const& table, model_names const& model, scenario& result) {
+inline void read_measurements(csv_table const& table, model_names const& model, scenario& result,
+                              stated_units const& units = {}) {
     auto const columns = find_columns(table, model.channels, "channel");
     for (auto const& q : columns)
         if (!q.error)
@@ -143,7 +163,7 @@ inline void read_measurements(csv_table const& table, model_names const& model, 
                 table.heading_line(), q.value,
                 text_of("there is no column ", in_quotes(model.channels[q.index].name + "_err")),
                 "add the error bounds of this channel");
-    auto const times = read_times(table);
+    auto const times = read_times(table, units.time);
     for (std::size_t r = 0; r < table.rows().size(); ++r) {
         auto const& row = table.rows()[r];
         if (times[r] < 0 || times[r] > result.duration)
@@ -155,8 +175,10 @@ inline void read_measurements(csv_table const& table, model_names const& model, 
                 if (!row.cells[*q.error].empty()) (void)read_error_bound(table, row, *q.error);
                 continue;
             }
-            auto value = table.number(row, q.value);
-            auto error = read_error_bound(table, row, *q.error);
+            auto [value, error] = converted(
+                table, row, q.value,
+                stated_units::of(units.channels, q.index)(
+                    {table.number(row, q.value), read_error_bound(table, row, *q.error)}));
             auto const bound = enclose(value - error, value + error);
             if (!bound)
                 table.fail(row.line, q.value,

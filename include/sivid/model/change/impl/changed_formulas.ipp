@@ -203,15 +203,16 @@ private:
     recorded_model seen_, before_, after_; ///< with the edits of inputs; with all
 };
 
-/// "S1, S2 from 1.2 s on, S3 until 4 s"
-[[nodiscard]] inline std::string episodes_of(effect const& e) {
+/// "S1, S2 from 1.2 s on, S3 until 4 s", in the model's unit of time
+[[nodiscard]] inline std::string episodes_of(effect const& e, std::string const& time_unit) {
     std::string text;
     for (std::size_t k = 0; k < e.only_in.size(); ++k) {
         text += (text.empty() ? "" : ", ") + e.only_in[k];
         double const since = k < e.since.size() ? e.since[k] : effect::from_start;
         double const until = k < e.until.size() ? e.until[k] : effect::for_ever;
-        if (since > effect::from_start) text += " from " + nearest_text(since) + " s on";
-        if (until < effect::for_ever) text += " until " + nearest_text(until) + " s";
+        if (since > effect::from_start)
+            text += " from " + nearest_text(since) + " " + time_unit + " on";
+        if (until < effect::for_ever) text += " until " + nearest_text(until) + " " + time_unit;
     }
     return text;
 }
@@ -229,7 +230,7 @@ SIVID_DECL changed_formulas formulas_of(recorded_model const& base, std::vector<
                               " have leapt back: follow them beyond the ends of their range");
         if (e.only_in.empty()) continue;
         partial.push_back(e.name.substr(0, e.name.find('@')) + " acts in " +
-                          model_detail::episodes_of(e) + " only");
+                          model_detail::episodes_of(e, base.about.time_unit) + " only");
         e.only_in.clear();
         e.since.clear();
         e.until.clear();

@@ -99,7 +99,7 @@ public:
         return rows_.at({i, way == window_way::damped}).row;
     }
     [[nodiscard]] std::string rate_unit(std::size_t i) const {
-        return unit(about().states[i].unit).times(unit("s"), -1).text();
+        return sivid::rate_unit(about().states[i].unit, about().time_unit);
     }
 
     /// Why equation i cannot be examined; empty if it can.
@@ -221,8 +221,8 @@ public:
             }
             result.assumptions.push_back(
                 about().states[s].name + "' varies within " +
-                nearest_text(motions_[since.begin()->first].variation[s].period, 6) +
-                " s by at most " + text);
+                nearest_text(motions_[since.begin()->first].variation[s].period, 6) + " " +
+                about().time_unit + " by at most " + text);
         }
         if (row(i).uses_inputs) result.assumptions.emplace_back("inputs exact");
         auto used = tubes;

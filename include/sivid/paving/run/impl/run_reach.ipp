@@ -83,6 +83,7 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
     auto const channels = problem.model.about.channels.size();
     run_reach result;
     result.scenario = whole.name;
+    result.time_unit = problem.model.about.time_unit;
     result.begin = result.until = whole.begin;
     result.end = samples.back().time;
     result.instants = instants_of(samples).size();

@@ -39,8 +39,8 @@ SIVID_DECL range time_range(channel_series const& c) {
 }
 
 SIVID_DECL std::string sample_tip(channel_series const& c, measured_sample const& m) {
-    std::string tip = "t = " + given_text(m.time) + " s: measured " + outward_text(m.value) + ' ' +
-                      unit_text(c.unit);
+    std::string tip = "t = " + given_text(m.time) + unit_suffix(c.time_unit) + ": measured " +
+                      outward_text(m.value) + ' ' + unit_text(c.unit);
     if (!is_empty(m.enclosure)) tip += std::string{", model within "} + outward_text(m.enclosure);
     return tip + (m.state == sample_state::forced_outlier ? ", outlier (proved)"
                   : m.state == sample_state::suspect      ? ", suspected outlier"

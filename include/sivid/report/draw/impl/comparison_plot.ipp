@@ -9,7 +9,7 @@ namespace sivid::report {
 namespace detail {
 
 SIVID_DECL channel_series plain_series(comparison_series const& c) {
-    channel_series out{c.name, c.unit, c.measured, c.tube, c.after};
+    channel_series out{c.name, c.unit, c.measured, c.tube, c.after, c.time_unit};
     for (point const& p : c.before)
         if (is_finite(p)) out.tube.push_back({p.x, p.x, {p.y, p.y}});
     return out;
@@ -50,7 +50,7 @@ SIVID_DECL std::vector<legend_entry> comparison_legend(std::vector<comparison_se
 SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_options const& o) {
     auto const plain = detail::plain_series(c);
     svg out{o.width, o.height, (o.title.empty() ? c.name : o.title) + ", before and after"};
-    auto const a = detail::time_axes(o, detail::time_range(plain),
+    auto const a = detail::time_axes(o, detail::time_range(plain), c.time_unit,
                                      {c.name, c.unit, detail::value_range(plain)});
     a.open(out);
     detail::draw_tube(out, a, c.tube);
@@ -73,6 +73,7 @@ SIVID_DECL svg draw_comparison_plot(comparison_series const& c, time_plot_option
 SIVID_DECL heat_map misfit_map(std::vector<comparison_series> const& channels, bool after,
                                std::size_t most_columns) {
     heat_map out{.quantity = "|residual| / bound"};
+    if (!channels.empty()) out.time_unit = channels.front().time_unit;
     range span;
     std::size_t columns = 1;
     for (comparison_series const& c : channels) {

@@ -84,7 +84,8 @@ SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
         out.text(px(t.value), bottom + 16, t.label,
                  {.size = 11, .align = anchor::middle, .fill = palette::muted_ink});
     }
-    out.text((left + right) / 2, bottom + 33, "time [s]", {.size = 11.5, .align = anchor::middle});
+    out.text((left + right) / 2, bottom + 33, "time [" + unit_text(m.time_unit) + "]",
+             {.size = 11.5, .align = anchor::middle});
 
     if (!o.key) return out;
     // The colour bar: left half up to the threshold, right half beyond.

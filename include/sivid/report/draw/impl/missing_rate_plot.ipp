@@ -79,7 +79,7 @@ SIVID_DECL svg draw_missing_rate(missing_rate_series const& s, time_plot_options
     svg out{o.width, o.height,
             "missing in " + s.equation + " over time" + (o.title.empty() ? "" : ", " + o.title)};
     auto const a = detail::time_axes(
-        o, detail::time_range(plain),
+        o, detail::time_range(plain), s.time_unit,
         {"missing in " + s.equation, s.unit, is_empty(values) ? detail::rate_range(s) : values});
     a.open(out);
     detail::draw_rate_band(out, a, s.estimate);
@@ -89,8 +89,9 @@ SIVID_DECL svg draw_missing_rate(missing_rate_series const& s, time_plot_options
         double const left = a.px(t.from), top = a.py(t.value.hi);
         double const wide = std::max(a.px(t.to) - left, 1.0);
         double const high = std::max(a.py(t.value.lo) - top, 1.5);
-        std::string const tip = given_text(t.from) + " to " + given_text(t.to) + " s" + ": " +
-                                outward_text(t.value) + unit_suffix(s.unit) + ", proved";
+        std::string const tip = given_text(t.from) + " to " + given_text(t.to) +
+                                unit_suffix(s.time_unit) + ": " + outward_text(t.value) +
+                                unit_suffix(s.unit) + ", proved";
         bool const zero = t.value.lo <= 0 && t.value.hi >= 0;
         if (zero) {
             out.rect(left, top, wide, high, {.stroke = palette::measurement}, 0, tip);

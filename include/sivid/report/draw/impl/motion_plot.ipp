@@ -35,8 +35,8 @@ SIVID_DECL svg draw_motion_plot(motion_series const& m, time_plot_options const&
         values = with_margin(values, 0.03);
     }
     svg out{o.width, o.height, (o.title.empty() ? m.tube.name : o.title) + " over time"};
-    auto const a =
-        detail::time_axes(o, detail::time_range(all), {m.tube.name, m.tube.unit, values});
+    auto const a = detail::time_axes(o, detail::time_range(all), m.tube.time_unit,
+                                     {m.tube.name, m.tube.unit, values});
     a.open(out);
     if (m.zero) {
         double const y = a.py(0);

@@ -134,8 +134,8 @@ SIVID_DECL svg draw_time_plot(channel_series const& c, time_plot_options const& 
     svg measure{0, 0, ""};
     double const below = draw_legend(measure, entries, 0, 0, o.width - 60);
     svg out{o.width, o.height + below, (o.title.empty() ? c.name : o.title) + " over time"};
-    auto const a =
-        detail::time_axes(o, detail::time_range(c), {c.name, c.unit, detail::value_range(c)});
+    auto const a = detail::time_axes(o, detail::time_range(c), c.time_unit,
+                                     {c.name, c.unit, detail::value_range(c)});
     a.open(out);
     detail::draw_tube(out, a, c.tube);
     detail::draw_reference(out, a, c.reference);
@@ -178,7 +178,8 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
             shown = hull(hull(shown, std::clamp(r.lo, -4.0, 4.0)), std::clamp(r.hi, -4.0, 4.0));
         }
     }
-    auto const a = detail::time_axes(o, detail::time_range(c), {"model / bound", "", shown});
+    auto const a =
+        detail::time_axes(o, detail::time_range(c), c.time_unit, {"model / bound", "", shown});
     a.open(out);
     out.rect(a.left(), a.py(1), a.right() - a.left(), a.py(-1) - a.py(1), {.fill = "#eef2f6"});
     out.path(path_data{}

@@ -45,6 +45,7 @@ public:
         for (std::size_t c = 0; c < all.size(); ++c) {
             all[c].name = about().channels[c].name;
             all[c].unit = about().channels[c].unit;
+            all[c].time_unit = about().time_unit;
         }
         for (std::size_t i = 0; i < samples.size(); ++i) {
             measured_sample m{.time = samples[i].time, .value = samples[i].bound};

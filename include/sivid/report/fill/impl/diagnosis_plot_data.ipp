@@ -41,7 +41,9 @@ SIVID_DECL std::vector<compared_scenario> compared_scenarios(identification_prob
             detail::suspects(then.empty() ? before : then, samples.size(), experiment.outliers);
         compared_scenario s{.name = experiment.name, .holdout = holdout};
         for (std::size_t c = 0; c < about.channels.size(); ++c) {
-            comparison_series d{.name = about.channels[c].name, .unit = about.channels[c].unit};
+            comparison_series d{.name = about.channels[c].name,
+                                .unit = about.channels[c].unit,
+                                .time_unit = about.time_unit};
             for (std::size_t i = 0; i < samples.size(); ++i) {
                 if (samples[i].channel != c) continue;
                 double const t = samples[i].time;

@@ -28,6 +28,7 @@ inline motion_series series_of(std::vector<double> const& times, predicted_tube 
     motion_series m;
     m.tube.name = tube.name;
     m.tube.unit = tube.unit;
+    m.tube.time_unit = tube.time_unit;
     for (std::size_t s = 1; s < tube.low.size(); s += 2) {
         range const value{std::min({tube.low[s - 1], tube.low[s], tube.low[s + 1]}),
                           std::max({tube.high[s - 1], tube.high[s], tube.high[s + 1]})};

@@ -93,7 +93,7 @@ SIVID_DECL table change_table(diagnosis_view const& v) {
 SIVID_DECL table cost_table(diagnosis_view const& v) {
     table t{.columns = {{"scenario", column_kind::symbol},
                         {"most off"},
-                        {"at [s]", column_kind::number},
+                        {"at [" + unit_text(v.time_unit) + "]", column_kind::number},
                         {"by", column_kind::number},
                         {"in error bounds", column_kind::number},
                         {"with it, at most", column_kind::number}},
@@ -137,7 +137,7 @@ SIVID_DECL std::vector<std::string> advice_lines(diagnosis_view const& v) {
                 place_name(places.front()) +
                 (places.front().where.scenario.empty()
                      ? ""
-                     : " (" + window_text(places.front().where) + ")") +
+                     : " (" + window_text(places.front().where, v.time_unit) + ")") +
                 ": nothing that was tried explains what is missing there");
         if (v.confined.empty() && places.empty())
             add("nothing that was tried explains the data, and no place stands out: look at error "

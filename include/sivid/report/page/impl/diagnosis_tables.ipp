@@ -25,7 +25,7 @@ SIVID_DECL std::vector<card> diagnosis_cards(diagnosis_view const& v) {
     }
     if (!v.where.empty()) {
         suspected_place const& p = v.where.front();
-        std::string const where = window_text(p.where);
+        std::string const where = window_text(p.where, v.time_unit);
         out.push_back({"where", place_name(p),
                        std::string{p.proved ? proved_mark : estimate_mark} +
                            (where.empty() ? "" : ": " + where)});
@@ -74,7 +74,7 @@ SIVID_DECL table summary_table(diagnosis_view const& v) {
         }
     };
     add("Gap", gap_clause(v));
-    if (!v.where.empty()) add("Where", place_clause(v.where.front()));
+    if (!v.where.empty()) add("Where", place_clause(v.where.front(), v.time_unit));
     bool const answered = v.answer == answer_kind::effects && !v.effects.empty();
     if (!v.confined.empty() && !answered) add("Data", confined_clause(v.confined.front()));
     std::size_t const tried = effects_tried(v);
@@ -112,7 +112,7 @@ SIVID_DECL table summary_table(diagnosis_view const& v) {
 SIVID_DECL table places_table(diagnosis_view const& v, std::size_t most) {
     table t{.columns = {{"place", column_kind::symbol},
                         {"scenario"},
-                        {"window [s]"},
+                        {"window [" + unit_text(v.time_unit) + "]"},
                         {"missing"},
                         {"its shape (estimate)"},
                         {"known by"},

@@ -27,8 +27,9 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88\xC2\xA0"
 
 [[nodiscard]] SIVID_DECL std::string capitalised(std::string text);
 
-/// "S4, 1.2 to 2 s"
-[[nodiscard]] SIVID_DECL std::string window_text(time_window const& w);
+/// "S4, 1.2 to 2 s", with the model's unit of time
+[[nodiscard]] SIVID_DECL std::string window_text(time_window const& w,
+                                                 std::string const& time_unit);
 
 /// "yaw equation", "sensor r", "input delta"
 [[nodiscard]] SIVID_DECL std::string place_name(suspected_place const& p);
@@ -40,10 +41,12 @@ inline constexpr std::string_view estimate_mark = "\xE2\x89\x88\xC2\xA0"
 [[nodiscard]] SIVID_DECL std::string law_text(std::string const& law);
 
 /// Where and how: "the yaw equation in S4, 1.2 to 2 s, lacks -0.42 to -0.18 rad/s^2 (proved)".
-[[nodiscard]] SIVID_DECL std::string place_clause(suspected_place const& p);
+[[nodiscard]] SIVID_DECL std::string place_clause(suspected_place const& p,
+                                                  std::string const& time_unit);
 
 /// One broken relation in plain words.
-[[nodiscard]] SIVID_DECL std::string relation_words(broken_relation_report const& r);
+[[nodiscard]] SIVID_DECL std::string relation_words(broken_relation_report const& r,
+                                                    std::string const& time_unit);
 
 /// "v in S3": the measurements of a part.
 [[nodiscard]] SIVID_DECL std::string part_words(confined_gap const& c);

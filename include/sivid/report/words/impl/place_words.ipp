@@ -15,8 +15,9 @@ SIVID_DECL std::string capitalised(std::string text) {
     return text;
 }
 
-SIVID_DECL std::string window_text(time_window const& w) {
-    std::string const times = given_text(w.from) + " to " + given_text(w.to) + "\xC2\xA0s";
+SIVID_DECL std::string window_text(time_window const& w, std::string const& time_unit) {
+    std::string const times =
+        given_text(w.from) + " to " + given_text(w.to) + unit_suffix(time_unit);
     return !(w.from < w.to) ? w.scenario : w.scenario.empty() ? times : w.scenario + ", " + times;
 }
 
@@ -45,9 +46,9 @@ SIVID_DECL std::string law_text(std::string const& law) {
     return formula_text(out);
 }
 
-SIVID_DECL std::string place_clause(suspected_place const& p) {
+SIVID_DECL std::string place_clause(suspected_place const& p, std::string const& time_unit) {
     std::string const missing = missing_text(p);
-    std::string const where = window_text(p.where);
+    std::string const where = window_text(p.where, time_unit);
     std::string out = "the " + place_name(p) + (where.empty() ? "" : " (" + where + ")");
     out += !missing.empty() ? (p.kind == "equation" ? " lacks " : " is off by ") + missing
            : p.proved       ? " is broken (proved)"
@@ -56,7 +57,8 @@ SIVID_DECL std::string place_clause(suspected_place const& p) {
     return p.regime.empty() ? out : out + ", where " + p.regime + " (estimate)";
 }
 
-SIVID_DECL std::string relation_words(broken_relation_report const& r) {
+SIVID_DECL std::string relation_words(broken_relation_report const& r,
+                                      std::string const& time_unit) {
     constexpr std::size_t most = 4;
     std::string out = "The " + r.equation + " equation";
     out += r.sensors.empty()       ? ""
@@ -72,7 +74,7 @@ SIVID_DECL std::string relation_words(broken_relation_report const& r) {
                             : std::string{" seem not to hold together (estimate)."};
     std::vector<std::string> windows;
     for (std::size_t i = 0; i < std::min(most, r.windows.size()); ++i) {
-        windows.push_back(window_text(r.windows[i]));
+        windows.push_back(window_text(r.windows[i], time_unit));
     }
     if (!windows.empty()) {
         out += " Shown by " + joined(windows, "; ");
@@ -105,16 +107,18 @@ inline std::string growth_clause(confined_gap const& c) {
     if (c.grows) {
         auto const size = inflation_text(c.grows->coefficient);
         grows = c.grows->what == noise_growth::with::rate
-                    ? "; likelier, they grow with how fast it changes, by " + size +
-                          " s times its rate (proved to explain): time stamps that are so far off "
+                    ? "; likelier, they grow with how fast it changes, by " + size + " " +
+                          c.grows->unit +
+                          " times its rate (proved to explain): time stamps that are so far off "
                           "would show that"
                     : "; likelier, they grow with what it shows, by " + size +
                           " times its value (proved to explain)";
     }
-    return c.correlated ? grows + "; its errors go together for " +
-                              rounded_text(c.correlated->seconds, rounding::nearest) +
-                              " s or so (estimate), as those of something slow do"
-                        : grows;
+    return c.correlated
+               ? grows + "; its errors go together for " +
+                     rounded_text(c.correlated->seconds, rounding::nearest) + " " +
+                     c.correlated->unit + " or so (estimate), as those of something slow do"
+               : grows;
 }
 
 } // namespace detail

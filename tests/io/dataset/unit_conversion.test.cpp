@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/importing/mapping/detail/unit_conversion.hpp>
+#include <sivid/io/dataset/unit_conversion.hpp>
 
 #include "io/import_support.hpp"
 

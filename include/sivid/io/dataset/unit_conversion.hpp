@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_IMPORTING_MAPPING_DETAIL_UNIT_CONVERSION_HPP
-#define SIVID_IMPORTING_MAPPING_DETAIL_UNIT_CONVERSION_HPP
+#ifndef SIVID_IO_DATASET_UNIT_CONVERSION_HPP
+#define SIVID_IO_DATASET_UNIT_CONVERSION_HPP
 
 #include <sivid/io/text/exact_decimal.hpp>
+#include <sivid/model/unit.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,34 @@ struct unit_conversion {
     exact_decimal factor_lower = one(), factor_upper = one();
     std::size_t divisor = 1; ///< 1 to largest_divisor
     exact_decimal offset;
+
+    /// From one unit to another, such as they are to each other. A factor with pi in it is an
+    /// interval of 50 digits.
+    /// @returns  nothing for factors that nobody needs: their divisor is beyond `largest_divisor`,
+    ///           or they have more than eight powers of pi
+    [[nodiscard]] static std::optional<unit_conversion> of(unit::ratio const& r) {
+        static auto const half = *exact_decimal::parse("0.5");
+        unit_conversion c;
+        auto factor = *exact_decimal::parse("1e" + std::to_string(r.ten));
+        for (int k = 0; k < r.two; ++k) factor = factor.times(2);
+        for (int k = 0; k > r.two; --k) factor = factor.times(half);
+        for (int k = 0; k < r.three; ++k) factor = factor.times(3);
+        for (int k = 0; k > r.three; --k) {
+            if (c.divisor > largest_divisor / 3) return std::nullopt;
+            c.divisor *= 3;
+        }
+        c.factor_lower = c.factor_upper = factor;
+        if (std::abs(r.pi) > 8) return std::nullopt;
+        std::string const pi = "3.1415926535897932384626433832795028841971693993751",
+                          part = "0.31830988618379067153776752674502872406891929148091";
+        auto const lower = *exact_decimal::parse(r.pi > 0 ? pi : part); // cut off
+        auto const upper = lower + *exact_decimal::parse(r.pi > 0 ? "1e-49" : "1e-50");
+        for (int k = 0; k < std::abs(r.pi); ++k) {
+            c.factor_lower = c.factor_lower.times(lower);
+            c.factor_upper = c.factor_upper.times(upper);
+        }
+        return c;
+    }
 
     [[nodiscard]] bool factor_is_exact() const { return factor_lower == factor_upper; }
 
@@ -77,12 +106,12 @@ struct unit_conversion {
         return converted_reading{middle, rounded_up(below < above ? above : below, 3)};
     }
 
-    /// An error bound of the reading, in the model's unit, rounded up to 15 digits.
+    /// An error bound of the reading, in the model's unit, rounded up to so many digits.
     /// @given  error > 0 (trusted)
-    [[nodiscard]] exact_decimal bound(exact_decimal const& error) const {
+    [[nodiscard]] exact_decimal bound(exact_decimal const& error, std::size_t kept = 15) const {
         auto const a = magnitude(factor_lower), b = magnitude(factor_upper);
         auto const result =
-            rounded_up(error.times(a < b ? b : a).divided_by(divisor, digits).second, 15);
+            rounded_up(error.times(a < b ? b : a).divided_by(divisor, digits).second, kept);
         return result < smallest() ? smallest() : result;
     }
 
@@ -108,4 +137,4 @@ private:
 
 } // namespace sivid
 
-#endif // SIVID_IMPORTING_MAPPING_DETAIL_UNIT_CONVERSION_HPP
+#endif // SIVID_IO_DATASET_UNIT_CONVERSION_HPP
