@@ -116,7 +116,23 @@ namespace sivid {
             if (auto const& stated = s.initial[i].stated)
                 json.members(model.states.at(i).name, range(*stated));
         }
-        json.end_object().end_object();
+        json.end_object();
+        if (std::any_of(s.inputs.begin(), s.inputs.end(),
+                        [](auto const& input) { return !input.bridged.empty(); })) {
+            json.key("bridged").begin_object();
+            for (std::size_t i = 0; i < s.inputs.size(); ++i) {
+                auto const& input = s.inputs[i];
+                if (input.bridged.empty()) continue;
+                json.key(model.inputs.at(i).name).begin_object(one_line);
+                json.members("samples", input.missing)
+                    .list("gaps", input.bridged, [](auto const& g) {
+                        return std::array{g.first, g.second};
+                    });
+                json.end_object();
+            }
+            json.end_object();
+        }
+        json.end_object();
     });
     if (!data.effects.empty()) {
         json.named("effects", data.effects, [&](dataset_effect const& e) {
