@@ -10,6 +10,43 @@
 
 namespace sivid {
 
+/// "lines": "all", or {"column": ..., "is": text or texts}: which lines count.
+/// @throws input_error
+[[nodiscard]] inline line_choice read_line_choice(json_value const& entry) {
+    using kind = json_value::kind;
+    line_choice result;
+    if (entry.type() == kind::string) {
+        result.all = true;
+        if (entry.string() != "all")
+            entry.fail(text_of("found ", in_quotes(entry.string())),
+                       "write \"all\" or {\"column\": ..., \"is\": ...}");
+        return result;
+    }
+    entry.allow_only({"column", "is"});
+    result.column = mapping_entries::column(entry.at("column"));
+    auto const add = [&](json_value const& text) {
+        result.is.push_back(text.type() == kind::number ? text.number().text() : text.string());
+    };
+    auto const& is = entry.at("is");
+    if (is.type() != kind::array) {
+        add(is);
+        return result;
+    }
+    for (auto const& text : is.elements()) add(text);
+    if (result.is.empty()) is.fail("no text", "state at least one");
+    return result;
+}
+
+/// "same_time": of readings at one time that differ.
+/// @throws input_error
+[[nodiscard]] inline same_time read_same_time(json_value const& entry) {
+    for (auto const& [word, meaning] : {std::pair{"refuse", same_time::refuse},
+                                        {"first", same_time::first},
+                                        {"last", same_time::last}})
+        if (entry.string() == word) return meaning;
+    entry.fail(text_of("found ", in_quotes(entry.string())), "write refuse, first or last");
+}
+
 /// "source": separators, missing readings, fields, and what happens where a log breaks.
 /// @throws input_error
 [[nodiscard]] inline source_form read_source_form(json_value const& entry) {
@@ -17,8 +54,9 @@ namespace sivid {
     source_form form;
     auto const* kind = entry.find("kind");
     if (kind != nullptr && kind->string() == "matlab") {
-        entry.allow_only({"kind"});
+        entry.allow_only({"kind", "same_time"});
         form.from = source_form::kind::matlab;
+        if (auto const* s = entry.find("same_time")) form.doubled = read_same_time(*s);
         return form;
     }
     if (kind != nullptr && kind->string() != "csv" && kind->string() != "serial")
@@ -27,10 +65,10 @@ namespace sivid {
     form.from = serial ? source_form::kind::serial : source_form::kind::csv;
     if (serial)
         entry.allow_only({"kind", "separator", "decimal", "missing", "fields", "longest_gap", "gap",
-                          "restart", "check_sum"});
+                          "restart", "check_sum", "lines", "same_time"});
     else
         entry.allow_only({"kind", "separator", "decimal", "missing", "skip_lines", "heading",
-                          "skip_after_heading"});
+                          "skip_after_heading", "short_lines", "lines", "same_time"});
     if (auto const* s = entry.find("separator"))
         form.separator =
             character(*s, ",;\t |:", "write \",\", \";\", \"\\t\", \"|\", \":\" or \" \" (blanks)");
@@ -41,7 +79,11 @@ namespace sivid {
                    "state a \"separator\" that differs from \"decimal\"");
     if (auto const* missing = entry.find("missing"))
         for (auto const& m : missing->elements()) form.missing.push_back(m.string());
+    if (auto const* l = entry.find("lines")) form.lines = read_line_choice(*l);
+    if (auto const* s = entry.find("same_time")) form.doubled = read_same_time(*s);
     if (!serial) {
+        if (auto const* s = entry.find("short_lines"))
+            form.short_lines = s->is_second_of("refuse", "missing");
         if (auto const* n = entry.find("skip_lines")) form.skip_lines = whole(*n, 0, 1'000'000);
         if (auto const* n = entry.find("skip_after_heading"))
             form.skip_after_heading = whole(*n, 0, 1'000'000);
@@ -96,6 +138,10 @@ namespace sivid {
     }
     if (auto const* unit = entry.find("unit")) {
         time.unit = unit->string();
+        if (step == nullptr && (time.unit == "iso8601" || time.unit == "hh:mm:ss")) {
+            time.form = time.unit == "iso8601" ? time_form::date : time_form::clock;
+            time.unit = "s";
+        }
         for (auto const& [name, factor] : {std::pair{"s", "1"},
                                            {"ms", "1e-3"},
                                            {"us", "1e-6"},
@@ -106,11 +152,14 @@ namespace sivid {
                 time.to_seconds.factor_lower = time.to_seconds.factor_upper =
                     *exact_decimal::parse(factor);
         if (time.unit != "s" && time.to_seconds.text().empty())
-            unit->fail(text_of("unknown unit ", in_quotes(time.unit)),
-                       "write s, ms, us, ns, min or h");
+            unit->fail(
+                text_of("unknown unit ", in_quotes(time.unit)),
+                "write s, ms, us, ns, min or h, or for a column of texts iso8601 or hh:mm:ss");
     }
     if (auto const* bits = entry.find("counter_bits")) {
         if (!serial) bits->fail("a counter in a table", "counters that wrap need a serial source");
+        if (time.form != time_form::number)
+            bits->fail("a counter of texts", "leave it out: a clock begins again at midnight");
         time.counter_bits = mapping_entries::counter_bits(*bits);
     }
     auto const* offset = entry.find("offset");
@@ -126,14 +175,29 @@ namespace sivid {
     return time;
 }
 
+/// "bridge": the longest time without a sample of an input, or with a bound of what it does there.
+/// @throws input_error
+inline void read_bridge(json_value const& entry, quantity_mapping& q) {
+    using namespace mapping_entries;
+    constexpr auto remedy = "state the longest time from a reading to the next one in seconds";
+    if (entry.type() == json_value::kind::number) {
+        q.bridge = positive(entry, remedy);
+        return;
+    }
+    entry.allow_only({"longest", "error"});
+    q.bridge = positive(entry.at("longest"), remedy);
+    q.bridge_error = positive(entry.at("error"), "state how far it may be from what stands there");
+}
+
 /// An entry of "inputs" or "channels".
 /// @throws input_error
 [[nodiscard]] inline quantity_mapping read_quantity_mapping(json_value const& entry,
                                                             std::string const& name, bool input) {
     using namespace mapping_entries;
     entry.allow_only({"column", "unit", "factor", "divisor", "offset", "counter_bits", "period",
-                      "range", "error"});
+                      "range", "error", "bridge"});
     quantity_mapping q;
+    q.place = entry.place();
     q.name = mapping_entries::name(entry, name);
     q.column = column(entry.at("column"));
     if (auto const* unit = entry.find("unit")) q.unit = unit->any_string();
@@ -170,6 +234,13 @@ namespace sivid {
         q.range.emplace(ends.lower, ends.upper);
     }
     auto const* error = entry.find("error");
+    if (auto const* b = entry.find("bridge")) {
+        if (!input) b->fail("a channel is measured where it has readings alone", "remove this key");
+        read_bridge(*b, q);
+        if (q.bridge_error && error == nullptr)
+            b->fail("a bound of what is missing in an input that is exact elsewhere",
+                    "state the \"error\" of its readings as well");
+    }
     if (error == nullptr) {
         if (!input) (void)entry.at("error"); // says that it is missing
         if (!q.conversion.factor_is_exact())
