@@ -200,7 +200,8 @@ TEST_CASE("samples that an input lacks reach the data set as what is bridged") {
     bool named = false;
     for (auto const& a : r.data.assumptions)
         named = named ||
-                a.find("a straight line stands there, though nobody knows") != std::string::npos;
+                a.find("where samples are missing a straight line stands, though nobody knows") !=
+                    std::string::npos;
     CHECK(named);
     auto const bounded =
         import_csv(with(R"("error": 0.1, "bridge": {"longest": 1, "error": 5})"), table);

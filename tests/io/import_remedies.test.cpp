@@ -93,6 +93,7 @@ TEST_CASE("remedies: headings") {
     };
     auto const rows = table.substr(table.find('\n') + 1);
     auto const units = replaced(table, "bound\n", "bound\n[ms],V,cm,cm\n");
+    auto const dashes = replaced(table, "bound\n", "bound\n[s],-,[cm],\n");
     auto const commented = "# recorded by hand\n#" + table;
     check({{plain, "Logger 3\n" + table, "skip_lines", csv("\"skip_lines\": 1"),
             "Logger 3\n" + table},
@@ -105,6 +106,8 @@ TEST_CASE("remedies: headings") {
             "line 2: no mapped cell of the first line below the heading is a number: it "
             "may name units; state \"skip_after_heading\": 1",
             csv("\"skip_after_heading\": 1"), units},
+           {plain, dashes, "state \"skip_after_heading\": 1", csv("\"skip_after_heading\": 1"),
+            dashes},
            {plain, table + "time,pump,level,bound\n400,1,1,1\n",
             "line 6: the heading stands here again: files were joined; remove the line", plain,
             table + "400,1,1,1\n"},

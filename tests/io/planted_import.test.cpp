@@ -180,7 +180,7 @@ TEST_CASE("forces that were not recorded are bridged as the mapping says, and re
         folder.write("mapping.json", replaced(plain, "\"column\": \"force\"", force));
         folder.write("a.csv", spoilt);
         auto const imported = import_in(folder);
-        CHECK(noted(imported.protocol, "samples are missing before this line") ==
+        CHECK(noted(imported.protocol, "where samples are missing") ==
               std::vector<std::size_t>{1230});
         auto const problem =
             problem_from_dataset(read_dataset(folder.path() / "out", names_of(model.about)), model);

@@ -80,7 +80,7 @@ TEST_CASE("whole turns may be lost where a gap is long for the rate that was see
         text += std::to_string(100 * i) + ",1," + (i == 10 ? "" : std::to_string((100 * i) % 360)) +
                 "\n"; // leap + missing sample
     auto const r = import_csv(replaced(csv_mapping, "\"factor\": 0.01", "\"period\": 360"), text);
-    CHECK(noted(r.protocol, "whole turns may be lost before this line") == list{13});
+    CHECK(noted(r.protocol, "whole turns may be lost where readings are missing") == list{13});
     bool reaches = false;
     for (auto const& a : r.data.assumptions)
         reaches = reaches || a.find("whole turns may be lost") != std::string::npos;

@@ -47,6 +47,34 @@ namespace sivid {
     entry.fail(text_of("found ", in_quotes(entry.string())), "write refuse, first or last");
 }
 
+/// What a log has beyond a table: fields, the longest gap, check sums, and what happens at breaks.
+/// @throws input_error
+inline void read_serial_form(json_value const& entry, source_form& form) {
+    using namespace mapping_entries;
+    for (auto const& f : entry.at("fields").elements()) {
+        auto const& name = f.string();
+        for (auto const& other : form.fields)
+            if (other == name && name != "_")
+                f.fail(text_of("the field ", in_quotes(name), " appears twice"), "rename one");
+        form.fields.push_back(name);
+    }
+    if (form.fields.empty()) entry.at("fields").fail("no field", "name what a line holds");
+    form.longest_gap = positive(entry.at("longest_gap"),
+                                "state the longest usual time between two lines in seconds");
+    if (auto const* sum = entry.find("check_sum"))
+        form.check_sums = sum->is_second_of("none", "crc16");
+    auto const policy = [&](char const* key, char const* other, break_policy meaning) {
+        auto const* found = entry.find(key);
+        if (found == nullptr || found->string() == "refuse") return break_policy::refuse;
+        if (found->string() == "split") return break_policy::split;
+        if (found->string() == other) return meaning;
+        found->fail(text_of("found ", in_quotes(found->string())),
+                    text_of("write refuse, split or ", other));
+    };
+    form.gap = policy("gap", "keep", break_policy::keep);
+    form.restart = policy("restart", "drop", break_policy::drop);
+}
+
 /// "source": separators, missing readings, fields, and what happens where a log breaks.
 /// @throws input_error
 [[nodiscard]] inline source_form read_source_form(json_value const& entry) {
@@ -93,28 +121,7 @@ namespace sivid {
                 .fail("there is no heading", "count these lines under \"skip_lines\"");
         return form;
     }
-    for (auto const& f : entry.at("fields").elements()) {
-        auto const& name = f.string();
-        for (auto const& other : form.fields)
-            if (other == name && name != "_")
-                f.fail(text_of("the field ", in_quotes(name), " appears twice"), "rename one");
-        form.fields.push_back(name);
-    }
-    if (form.fields.empty()) entry.at("fields").fail("no field", "name what a line holds");
-    form.longest_gap = positive(entry.at("longest_gap"),
-                                "state the longest usual time between two lines in seconds");
-    if (auto const* sum = entry.find("check_sum"))
-        form.check_sums = sum->is_second_of("none", "crc16");
-    auto const policy = [&](char const* key, char const* other, break_policy meaning) {
-        auto const* found = entry.find(key);
-        if (found == nullptr || found->string() == "refuse") return break_policy::refuse;
-        if (found->string() == "split") return break_policy::split;
-        if (found->string() == other) return meaning;
-        found->fail(text_of("found ", in_quotes(found->string())),
-                    text_of("write refuse, split or ", other));
-    };
-    form.gap = policy("gap", "keep", break_policy::keep);
-    form.restart = policy("restart", "drop", break_policy::drop);
+    read_serial_form(entry, form);
     return form;
 }
 
@@ -189,6 +196,44 @@ inline void read_bridge(json_value const& entry, quantity_mapping& q) {
     q.bridge_error = positive(entry.at("error"), "state how far it may be from what stands there");
 }
 
+/// "error" of an input or a channel, and of an input what may be missing.
+/// @throws input_error
+inline void read_bound(json_value const& entry, bool input, quantity_mapping& q) {
+    using namespace mapping_entries;
+    auto const* error = entry.find("error");
+    if (auto const* b = entry.find("bridge")) {
+        if (!input) b->fail("a channel is measured where it has readings alone", "remove this key");
+        read_bridge(*b, q);
+        if (q.bridge_error && error == nullptr)
+            b->fail("a bound of what is missing in an input that is exact elsewhere",
+                    "state the \"error\" of its readings as well");
+    }
+    if (error == nullptr) {
+        if (!input) (void)entry.at("error"); // says that it is missing
+        if (!q.conversion.factor_is_exact())
+            entry.fail("an exact input with an uncertain factor",
+                       "state an \"error\"; the factor's share is added to it");
+        if (q.period && !(q.period->first == q.period->second))
+            entry.fail("an exact input with an uncertain period",
+                       "state an \"error\"; the period's share is added to it");
+        return;
+    }
+    q.error.place = error->place();
+    if (error->type() == json_value::kind::object) {
+        error->allow_only({"column"});
+        q.error.from = bound_source::kind::column;
+        q.error.column = column(error->at("column"));
+    } else if (error->type() == json_value::kind::string) {
+        if (error->string() != "propose")
+            error->fail(text_of("found ", in_quotes(error->string())),
+                        "write a number, {\"column\": ...} or \"propose\"");
+        q.error.from = bound_source::kind::proposed;
+    } else {
+        q.error.from = bound_source::kind::number;
+        q.error.number = positive(*error, "a bound of an instrument is positive");
+    }
+}
+
 /// An entry of "inputs" or "channels".
 /// @throws input_error
 [[nodiscard]] inline quantity_mapping read_quantity_mapping(json_value const& entry,
@@ -233,38 +278,7 @@ inline void read_bridge(json_value const& entry, quantity_mapping& q) {
         auto const ends = range(*r);
         q.range.emplace(ends.lower, ends.upper);
     }
-    auto const* error = entry.find("error");
-    if (auto const* b = entry.find("bridge")) {
-        if (!input) b->fail("a channel is measured where it has readings alone", "remove this key");
-        read_bridge(*b, q);
-        if (q.bridge_error && error == nullptr)
-            b->fail("a bound of what is missing in an input that is exact elsewhere",
-                    "state the \"error\" of its readings as well");
-    }
-    if (error == nullptr) {
-        if (!input) (void)entry.at("error"); // says that it is missing
-        if (!q.conversion.factor_is_exact())
-            entry.fail("an exact input with an uncertain factor",
-                       "state an \"error\"; the factor's share is added to it");
-        if (q.period && !(q.period->first == q.period->second))
-            entry.fail("an exact input with an uncertain period",
-                       "state an \"error\"; the period's share is added to it");
-        return q;
-    }
-    q.error.place = error->place();
-    if (error->type() == json_value::kind::object) {
-        error->allow_only({"column"});
-        q.error.from = bound_source::kind::column;
-        q.error.column = column(error->at("column"));
-    } else if (error->type() == json_value::kind::string) {
-        if (error->string() != "propose")
-            error->fail(text_of("found ", in_quotes(error->string())),
-                        "write a number, {\"column\": ...} or \"propose\"");
-        q.error.from = bound_source::kind::proposed;
-    } else {
-        q.error.from = bound_source::kind::number;
-        q.error.number = positive(*error, "a bound of an instrument is positive");
-    }
+    read_bound(entry, input, q);
     return q;
 }
 

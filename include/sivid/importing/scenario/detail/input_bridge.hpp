@@ -61,7 +61,7 @@ inline void require_bridge(scenario_mapping const& s, quantity_mapping const& ma
                     ", \"error\": E} if it was within E of that")};
     }
     auto const words =
-        text_of("samples are missing before this line: ", stands, " there, ",
+        text_of("where samples are missing ", stands, ", ",
                 mapping.bridge_error
                     ? text_of("and the input is within ", mapping.bridge_error->text(), " of that")
                     : std::string{"though nobody knows what the input did"});

@@ -215,10 +215,11 @@ private:
             readings.push_back(s.raw);
         }
         for (auto const k : doubtful_turns(times, readings, period()))
-            protocol_.add(kind::assumed, scenario_, q_.name,
-                          "whole turns may be lost before this line: at the largest rate seen the "
-                          "time without a reading is enough for half a turn",
-                          result.samples[k].line);
+            protocol_.add(
+                kind::assumed, scenario_, q_.name,
+                "whole turns may be lost where readings are missing: at the largest rate seen "
+                "that time is enough for half a turn",
+                result.samples[k].line);
     }
 
     void report(imported_quantity const& result) {

@@ -154,12 +154,15 @@ private:
             }
             return;
         }
-        fail_(row.line, true,
-              text_of("the time goes back from ", table_.rows.back().time.text(), " to ",
-                      row.time.text(), " s"),
-              "the recorder began again, its counter wrapped, or files were joined: cut the file "
-              "here, or import it as a serial log (\"kind\": \"serial\") with \"restart\" or the "
-              "time's \"counter_bits\"");
+        fail_(
+            row.line, true,
+            text_of("the time goes back from ", table_.rows.back().time.text(), " to ",
+                    row.time.text(), " s"),
+            text_of("the recorder began again, its counter wrapped, or files were joined: ",
+                    s_.form.from == source_form::kind::matlab
+                        ? "cut the vectors here"
+                        : "cut the file here, or import it as a serial log (\"kind\": \"serial\") "
+                          "with \"restart\" or the time's \"counter_bits\""));
     }
 
     scenario_mapping const& s_;

@@ -201,10 +201,13 @@ private:
         if (any_row_ || form_.heading == false) return;
         auto used = columns_;
         if (time_column_) used.push_back(*time_column_);
-        for (auto const c : used)
-            if (form_.is_missing(cells[c]) || means_nothing(cells[c]) ||
-                parse_reading(cells[c], form_.decimal) || stamps_.about(cells[c]))
-                return;
+        bool text = false;
+        for (auto const c : used) {
+            if (parse_reading(cells[c], form_.decimal) || stamps_.about(cells[c])) return;
+            text = text || !(form_.is_missing(cells[c]) || means_nothing(cells[c]));
+        }
+        bool const timed = time_column_ && !form_.is_missing(cells[*time_column_]);
+        if (!text || (time_column_ && !timed)) return;
         fail(line, 0,
              "no mapped cell of the first line below the heading is a number: it may name units",
              text_of("state \"skip_after_heading\": ", std::to_string(form_.skip_after_heading + 1),
