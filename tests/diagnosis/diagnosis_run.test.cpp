@@ -55,7 +55,11 @@ TEST_CASE("hold-out figures of the model itself stand under no cause") {
     run.result.answer = answer_kind::unexplained; // what comes closest is the model
     run.result.causes.resize(1);                  // and then a candidate
     run.base_bound = verify_at(run.candidates[0].problem, run.candidates[0].fit);
-    judge_by_holdout(run, holdout({small_campaign::experiment(2, {})}));
+    auto held_out = small_campaign::experiment(2, {});
+    held_out.bridged = {{"u", 2, 0.1, true}};
+    judge_by_holdout(run, holdout({held_out}));
+    CHECK(run.result.assumptions.back() ==
+          "of the held-out data; input u: held over 2 missing samples, longest gap 0.1 s");
     REQUIRE(run.holdout_before);
     CHECK(run.holdout_before->at_witness.upper() < 10);
     CHECK_FALSE(run.holdout_after);

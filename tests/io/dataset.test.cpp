@@ -367,6 +367,33 @@ TEST_CASE("bad input gives one error that names the place") {
     CHECK(cases.size() >= 40);
 }
 
+TEST_CASE("what is bridged lies between samples of the input, each gap once") {
+    temporary_folder const folder;
+    write_small(folder);
+    auto const read = [&](std::string const& bridged) {
+        folder.write("dataset.json",
+                     io_support::replaced(io_support::small_json, "\"v\": [0, 0] } }",
+                                          "\"v\": [0, 0] }, \"bridged\": " + bridged + " }"));
+        return read_dataset(folder.path(), io_support::hovercraft_names());
+    };
+    auto const data = read(R"({ "W": { "samples": 7, "gaps": [[0, 0.5]] } })");
+    CHECK(data.scenarios[0].inputs[0].missing == 7);
+    CHECK(data.scenarios[0].inputs[0].bridged == std::vector{std::pair{0.0, 0.5}});
+    CHECK(data.scenarios[0].inputs[1].bridged.empty());
+    auto const refused = [&](std::string const& bridged, std::string const& says) {
+        CHECK_THROWS_WITH(read(bridged), ContainsSubstring(says));
+    };
+    refused(R"({ "X": { "samples": 7, "gaps": [[0, 0.5]] } })", "unknown input");
+    refused(R"({ "W": { "samples": 7, "gaps": [[0, 1]] } })", "from one sample of 'W' to the next");
+    refused(R"({ "W": { "samples": 7, "gaps": [[0.1, 0.5]] } })", "from one sample");
+    refused(R"({ "W": { "samples": 7, "gaps": [[1, 2]] } })", "from one sample");
+    refused(R"({ "W": { "samples": 7, "gaps": [[0, 0.5], [0, 0.5]] } })", "follow each other");
+    refused(R"({ "W": { "samples": 7, "gaps": [] } })", "no gap");
+    refused(R"({ "W": { "samples": 0, "gaps": [[0, 0.5]] } })", "whole number from 1");
+    refused(R"({ "W": { "gaps": [[0, 0.5]] } })", "samples");
+    refused(R"({ "W": { "samples": 1, "gaps": [[0, 0.5]], "why": 1 } })", "why");
+}
+
 TEST_CASE("a folder or a description that is not there is an error") {
     temporary_folder const folder;
     auto const model = io_support::hovercraft_names();

@@ -40,6 +40,8 @@ void check_equal(dataset const& a, dataset const& b) {
             CHECK(x.inputs[i].signal.values() == y.inputs[i].signal.values());
             CHECK(x.inputs[i].signal.kind() == y.inputs[i].signal.kind());
             CHECK(x.inputs[i].error == y.inputs[i].error);
+            CHECK(x.inputs[i].missing == y.inputs[i].missing);
+            CHECK(x.inputs[i].bridged == y.inputs[i].bridged);
         }
         REQUIRE(x.measurements.size() == y.measurements.size());
         for (std::size_t i = 0; i < x.measurements.size(); ++i) {
@@ -70,6 +72,12 @@ TEST_CASE("what is written reads back as the same value") {
     write_dataset(data, model, copy.path() / "new");
     check_equal(data, read_dataset(copy.path() / "new", model));
     write_dataset(data, model, copy.path() / "new"); // again, over the old files
+    check_equal(data, read_dataset(copy.path() / "new", model));
+    // What is bridged where samples of an input are missing.
+    data.scenarios[0].inputs[1].bridged = {{0, 0.5}, {0.5, 1}};
+    data.scenarios[0].inputs[1].missing = 43;
+    write_dataset(data, model, copy.path() / "new");
+    CHECK_THAT(copy.read("new/dataset.json"), ContainsSubstring("\"bridged\""));
     check_equal(data, read_dataset(copy.path() / "new", model));
 }
 

@@ -20,10 +20,10 @@ using generator = std::mt19937_64;
 std::string rich_mapping(generator& random, bool serial) {
     bool const windows = random() % 2 == 0;
     if (!serial) {
-        auto text =
-            replaced(replaced(csv_mapping, "\"column\": \"pump\"",
-                              "\"column\": \"pump\", \"error\": 0.1, \"factor\": [0.9, 1.1]"),
-                     "\"error\": 0.02", "\"error\": {\"column\": \"bound\"}");
+        auto text = replaced(
+            replaced(csv_mapping, "\"column\": \"pump\"",
+                     "\"column\": \"pump\", \"error\": 0.1, \"factor\": [0.9, 1.1], \"bridge\": 1"),
+            "\"error\": 0.02", "\"error\": {\"column\": \"bound\"}");
         if (!windows) return text;
         return replaced(
             text, "\"initial\": { \"h\": [0, 1] }",
@@ -37,6 +37,10 @@ std::string rich_mapping(generator& random, bool serial) {
     text = replaced(
         text, "\"column\": \"enc\", \"error\": 1",
         R"("column": "enc", "counter_bits": 16, "factor": 2, "divisor": 3, "error": "propose")");
+    text = replaced(text, "\"column\": \"pwm\"",
+                    random() % 2 == 0 ? "\"column\": \"pwm\", \"bridge\": 9"
+                                      : "\"column\": \"pwm\", \"error\": 1, \"bridge\": "
+                                        "{\"longest\": 9, \"error\": 5}");
     if (!windows) return text;
     return replaced(text, "\"initial\": {}",
                     R"("initial": { "x": { "channel": "x", "rate": 2e6 } },

@@ -142,3 +142,61 @@ TEST_CASE("outliers are never denied, nor believed at a start") {
                ContainsSubstring("/max_outlier_fraction: of the 40 measurements of 'run-w1' 0.01 "
                                  "allows no outlier"));
 }
+
+namespace {
+
+/// The record with the force of these steps unrecorded, whole steps as they are.
+std::string without_force(std::string const& table, std::size_t from, std::size_t to) {
+    std::string result;
+    std::size_t number = 0;
+    for (auto const& line : lines_of(table)) {
+        auto text = std::string{line.text};
+        if (++number >= from && number < to) {
+            auto const first = text.find(';'), second = text.find(';', first + 1);
+            text.erase(first + 1, second - first - 1);
+        }
+        result += text + "\n";
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("forces that were not recorded are bridged as the mapping says, and results name it") {
+    std::mt19937_64 random{11};
+    planted_axis axis{random, 100};
+    auto const table = table_of(axis, 5000, false, random);
+    auto const spoilt =
+        without_force(table, 1130, 1230); // a tenth of a second of the second window
+    auto const plain = mapping("0", "2.2", "\"propose\"");
+    CHECK_THAT(
+        refusal(plain, spoilt),
+        ContainsSubstring("/scenarios/0/inputs/F") &&
+            ContainsSubstring("100 samples of this input are missing, first before line 1230") &&
+            ContainsSubstring("state \"bridge\": 0.101"));
+    auto const model = record_model(linear_axis{});
+    auto const identified = [&](std::string const& force) {
+        temporary_folder const folder;
+        folder.write("mapping.json", replaced(plain, "\"column\": \"force\"", force));
+        folder.write("a.csv", spoilt);
+        auto const imported = import_in(folder);
+        CHECK(noted(imported.protocol, "where samples are missing") ==
+              std::vector<std::size_t>{1230});
+        auto const problem =
+            problem_from_dataset(read_dataset(folder.path() / "out", names_of(model.about)), model);
+        identify_options options;
+        options.search.seconds = 30;
+        options.search.boxes = 60;
+        return identify(problem, options);
+    };
+    auto const held = identified(R"("column": "force", "bridge": 0.101)");
+    CHECK(held.assumptions.front() ==
+          "inputs exact; input F: held over 100 missing samples, longest gap 0.101 s");
+    // With a bound that holds nothing is assumed, and the truth is never excluded.
+    auto const bounded = identified(
+        R"("column": "force", "error": 1e-9, "bridge": {"longest": 0.101, "error": 200})");
+    CHECK(bounded.assumptions.front() == "inputs within their stated errors");
+    CHECK(bounded.verdict != verdict::inconsistent);
+    CHECK(contains(bounded.hull[0], axis.mass));
+    CHECK(contains(bounded.hull[1], axis.friction));
+}

@@ -89,6 +89,12 @@ TEST_CASE("input errors become bounds of the signals, and what proofs assume say
     auto problem = problem_from_dataset(data, model);
     CHECK_FALSE(any_uncertain(problem.experiments[0].inputs));
     CHECK(input_assumption(problem.experiments) == "inputs exact");
+    data.scenarios[0].inputs[0].bridged = {{0, 1}};
+    data.scenarios[0].inputs[0].missing = 4;
+    CHECK(input_assumption(problem_from_dataset(data, model).experiments) ==
+          "inputs exact; input " + model.about.inputs[0].name +
+              ": held over 4 missing samples, longest gap 1 s");
+    data.scenarios[0].inputs[0].bridged.clear();
     data.scenarios[0].inputs[0].error = {0.1, 0.25};
     problem = problem_from_dataset(data, model);
     auto const& u = std::get<sampled_signal>(problem.experiments[0].inputs[0]);

@@ -79,3 +79,20 @@ TEST_CASE("different values are counted up to a limit") {
     CHECK(sivid::distinct_count({1, 2, 1, 2}, 3) == 2);
     CHECK(sivid::distinct_count({1, 2, 3, 4, 5}, 3) == 3);
 }
+
+TEST_CASE("a step is found in whatever unit readings are") {
+    std::mt19937_64 random{4};
+    std::normal_distribution<double> noise{0, 1};
+    std::vector<double> values;
+    double const step = 5.0 / 1024;
+    for (int i = 0; i < 300; ++i) { // written with four places
+        double const x = std::sin(0.02 * i) + 0.05 * noise(random);
+        values.push_back(std::round(step * std::round(x / step) * 1e4));
+    }
+    for (int const k : {-12, -9, -4, 0, 3, 9}) {
+        CAPTURE(k);
+        auto scaled = values;
+        for (double& v : scaled) v *= std::pow(10.0, k);
+        CHECK_THAT(quantisation_step(scaled), WithinRel(1e4 * step * std::pow(10.0, k), 1e-3));
+    }
+}

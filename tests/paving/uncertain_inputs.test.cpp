@@ -216,4 +216,14 @@ TEST_CASE("what proofs take for granted of the inputs is said") {
     CHECK(input_assumption({other}) == "inputs within their stated errors");
     CHECK(input_assumption({e, other}) ==
           "inputs within their stated errors, exact where none is stated");
+    // What is bridged is named, once for each input.
+    e.bridged = {{"torque", 40, 0.12, false}, {"flow", 1, 2, true}};
+    CHECK(input_assumption({e}) ==
+          "inputs exact; input torque: straight lines over 40 missing samples, longest gap 0.12 s; "
+          "input flow: held over 1 missing sample, longest gap 2 s");
+    other.bridged = {{"torque", 3, 0.05, false}};
+    CHECK(input_assumption({e, other}) ==
+          "inputs within their stated errors, exact where none is stated; input torque: straight "
+          "lines over 43 missing samples, longest gap 0.12 s; input flow: held over 1 missing "
+          "sample, longest gap 2 s");
 }

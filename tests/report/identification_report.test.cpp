@@ -41,6 +41,18 @@ TEST_CASE("the view says what the identification proved, and no more") {
     CHECK(sivid_tests::markup_error(sivid_tests::body_of(page)) == "");
 }
 
+TEST_CASE("what is bridged where samples of an input are missing stands on the page") {
+    auto problem = two_rates_problem();
+    auto found = two_rates_result(problem);
+    problem.experiments[0].bridged = {{"torque", 43, 0.12, false}};
+    found.assumptions.front() = sivid::input_assumption(problem.experiments);
+    auto const v = view_of(problem, found, nullptr, {.dataset = "small"});
+    CHECK_THAT(v.assumptions.front(),
+               StartsWith("The recorded inputs are exact") &&
+                   EndsWith("nobody knows what the input did there: input torque: straight lines "
+                            "over 43 missing samples, longest gap 0.12 s."));
+}
+
 TEST_CASE("a forced outlier is marked as proved, and its budget shown") {
     auto const problem = two_rates_problem(true);
     auto const found = two_rates_result(problem);

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -54,6 +55,9 @@ struct dataset_input {
     sampled_signal signal;     ///< the stated samples (nearest doubles) and what holds between them
     std::vector<double> error; ///< bound for each sample, rounded up; empty: the samples are exact
     std::vector<exact_decimal> stated_error; ///< as stated, same length as error
+    std::size_t missing{};                   ///< samples that `bridged` goes across
+    /// From a sample to the next one, where others between them are missing.
+    std::vector<std::pair<double, double>> bridged{};
 };
 
 /// fit: used for identification. holdout: not used before the final figures are taken.

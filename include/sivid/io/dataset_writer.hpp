@@ -85,6 +85,24 @@ namespace sivid {
     return text;
 }
 
+/// Adds what stands where samples of inputs are missing, if any are.
+inline void add_bridged(json_writer& json, scenario const& s, model_names const& model) {
+    if (std::all_of(s.inputs.begin(), s.inputs.end(),
+                    [](auto const& input) { return input.bridged.empty(); }))
+        return;
+    json.key("bridged").begin_object();
+    for (std::size_t i = 0; i < s.inputs.size(); ++i) {
+        auto const& input = s.inputs[i];
+        if (input.bridged.empty()) continue;
+        json.key(model.inputs.at(i).name).begin_object(json_writer::layout::one_line);
+        json.members("samples", input.missing).list("gaps", input.bridged, [](auto const& gap) {
+            return std::array{gap.first, gap.second};
+        });
+        json.end_object();
+    }
+    json.end_object();
+}
+
 /// The text of `dataset.json`, with the units of what the tables hold: those of `model`.
 [[nodiscard]] inline std::string dataset_json(dataset const& data, model_names const& model) {
     constexpr auto one_line = json_writer::layout::one_line;
@@ -137,7 +155,9 @@ namespace sivid {
             else
                 json.object("range", range(*stated), "unit", unit);
         }
-        json.end_object().end_object();
+        json.end_object();
+        add_bridged(json, s, model);
+        json.end_object();
     });
     if (!data.effects.empty()) {
         json.named("effects", data.effects, [&](dataset_effect const& e) {

@@ -8,6 +8,7 @@
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/model/problem.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -32,10 +33,16 @@ inline std::vector<experiment> experiments_of(dataset const& data, model_descrip
         }
         experiment e;
         e.name = s.name;
-        for (auto const& input : s.inputs) {
+        for (std::size_t i = 0; i < s.inputs.size(); ++i) {
+            auto const& input = s.inputs[i];
             auto const& u = input.signal;
             e.inputs.emplace_back(std::in_place_type<sampled_signal>, u.times(), u.values(),
                                   u.kind(), input.error);
+            if (input.bridged.empty()) continue;
+            bridged_input b{about.inputs[i].name, input.missing, 0,
+                            u.kind() == interpolation::hold, about.time_unit};
+            for (auto const& [from, to] : input.bridged) b.longest = std::max(b.longest, to - from);
+            e.bridged.push_back(std::move(b));
         }
         e.initial = box(s.initial.size());
         for (std::size_t i = 0; i < s.initial.size(); ++i) e.initial[i] = s.initial[i].range;

@@ -49,16 +49,19 @@ inline double exact_step(std::vector<double> const& gaps, double size, double sm
     return step;
 }
 
-/// The last decimal place of all values, if they have at most so many; else 0.
-inline double last_place(std::vector<double> const& values) {
-    constexpr int most = 9;
-    double unit = 1;
-    for (int k = 0; k <= most; ++k, unit *= 10) {
-        bool const whole = std::all_of(values.begin(), values.end(), [unit](double v) {
-            double const scaled = v * unit;
-            return std::abs(scaled - std::round(scaled)) <= 1e-6;
+/// The last decimal place of all values, counted from the first digit of the largest, whatever
+/// their unit is; 0: they have more than so many, as doubles that were computed have.
+/// @param size  of the largest, above 0
+inline double last_place(std::vector<double> const& values, double size) {
+    constexpr int most = 9; // after the first one; doubles hold 15 places
+    int const first = static_cast<int>(std::floor(std::log10(size)));
+    for (int k = first; k >= first - most; --k) {
+        double const place = std::pow(10.0, std::abs(k));
+        bool const whole = std::all_of(values.begin(), values.end(), [&](double v) {
+            double const scaled = k < 0 ? v * place : v / place;
+            return std::abs(scaled - std::round(scaled)) <= 1e-6 + 1e-15 * std::abs(scaled);
         });
-        if (whole) return 1 / unit;
+        if (whole) return k < 0 ? 1 / place : place;
     }
     return 0;
 }
@@ -120,7 +123,7 @@ inline double written_step(std::vector<double> const& values, std::vector<double
     std::sort(gaps.begin(), gaps.end());
     if (gaps.empty() || !std::isfinite(gaps.back())) return 0;
     double const step = quantisation_detail::exact_step(gaps, size, smallest);
-    double const place = quantisation_detail::last_place(values);
+    double const place = quantisation_detail::last_place(values, size);
     if (place > 0 && step < 1.5 * place) {
         double const coarse = quantisation_detail::written_step(values, gaps, place);
         if (coarse > 0) return coarse;

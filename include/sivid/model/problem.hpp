@@ -4,6 +4,7 @@
 
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/bound_model.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -14,6 +15,16 @@
 #include <vector>
 
 namespace sivid {
+
+/// Samples of an input that are missing, and across which goes what holds between the others: an
+/// assumption, since nobody knows what the input did there.
+struct bridged_input {
+    std::string input;
+    std::size_t samples = 0; ///< that are missing
+    double longest = 0;      ///< the longest time from a sample to the next one
+    bool held = false;       ///< the sample before stands there; otherwise a straight line does
+    std::string time_unit = "s"; ///< of `longest`: the model's
+};
 
 /// One experiment: what was put in, where it may have started, what was measured.
 struct experiment {
@@ -26,6 +37,7 @@ struct experiment {
     /// The bounds are no data but a condition that parameters meet (`changed_problem`): none of
     /// them is ever dropped, grown or counted.
     bool constraint = false;
+    std::vector<bridged_input> bridged{}; ///< inputs of which samples are missing
 
     /// Time of the last measurement; `begin` where there is none.
     [[nodiscard]] double end() const {
@@ -35,8 +47,33 @@ struct experiment {
     }
 };
 
+/// What stands where samples of inputs are missing: "; input torque: straight lines over 43 missing
+/// samples, longest gap 0.12 s", for each such input of the experiments. Nothing where none is.
+[[nodiscard]] inline std::string bridging_words(std::vector<experiment> const& experiments) {
+    std::vector<bridged_input> all;
+    for (auto const& e : experiments) {
+        for (auto const& b : e.bridged) {
+            auto const known = std::find_if(all.begin(), all.end(), [&](auto const& other) {
+                return other.input == b.input && other.held == b.held;
+            });
+            if (known == all.end()) {
+                all.push_back(b);
+                continue;
+            }
+            known->samples += b.samples;
+            known->longest = std::max(known->longest, b.longest);
+        }
+    }
+    std::string text;
+    for (auto const& b : all)
+        text += "; input " + b.input + ": " + (b.held ? "held" : "straight lines") + " over " +
+                std::to_string(b.samples) + " missing sample" + (b.samples == 1 ? "" : "s") +
+                ", longest gap " + nearest_text(b.longest, 3) + " " + b.time_unit;
+    return text;
+}
+
 /// What proofs take for granted of the inputs: that they are the recorded ones, or that they stay
-/// within stated errors of them.
+/// within stated errors of them; and what stands where samples of them are missing.
 [[nodiscard]] inline std::string input_assumption(std::vector<experiment> const& experiments) {
     bool some = false, all = true;
     for (auto const& e : experiments) {
@@ -45,9 +82,11 @@ struct experiment {
             all = all && is_uncertain(u);
         }
     }
-    if (!some) return "inputs exact";
-    return all ? "inputs within their stated errors"
-               : "inputs within their stated errors, exact where none is stated";
+    std::string const words = !some ? "inputs exact"
+                              : all
+                                  ? "inputs within their stated errors"
+                                  : "inputs within their stated errors, exact where none is stated";
+    return words + bridging_words(experiments);
 }
 
 namespace model_detail {

@@ -109,6 +109,7 @@ inline void describe(canonical_text& t, identification_problem const& p) {
     for (auto const& e : p.experiments) {
         t("experiment", e.name, e.begin, e.initial, e.outliers);
         if (e.constraint) t("constraint");
+        for (auto const& b : e.bridged) t("bridged", b.input, b.samples, b.longest, b.held);
         for (auto const& m : e.measurements) t("measured", m.time, m.channel, m.bound);
         for (auto const& input : e.inputs) {
             if (auto const* sampled = std::get_if<sampled_signal>(&input)) {

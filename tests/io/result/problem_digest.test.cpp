@@ -39,6 +39,8 @@ TEST_CASE("whatever decides a search changes the digest, budgets and threads do 
     differs([](p& x) { x.experiments[0].begin = 0.5; });
     differs([](p& x) { x.experiments[0].initial[0] = interval(2.0, 2.1); });
     differs([](p& x) { x.experiments[0].outliers = 2; });
+    differs([](p& x) { x.experiments[0].bridged = {{"u", 3, 0.1, false}}; });
+    differs([](p& x) { x.experiments[0].bridged = {{"u", 3, 0.1, true}}; });
     differs([](p& x) { x.experiments[0].measurements[0].time += 1e-16; });
     differs([](p& x) { x.experiments[0].measurements.pop_back(); });
     differs([](p& x) { x.experiments[0].inputs.push_back(sampled_signal{}); });

@@ -20,7 +20,10 @@ namespace sivid {
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
                                  feasibility_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
-    data.judged_by(run.candidates.front(), run.base, run.catalogue).require_valid_campaign();
+    auto const posed = data.judged_by(run.candidates.front(), run.base, run.catalogue);
+    posed.require_valid_campaign();
+    if (auto const words = bridging_words(posed.experiments); !words.empty())
+        run.result.assumptions.push_back("of the held-out data" + words);
     stopwatch const clock;
     // Whether effects of some scenarios act in the hold-out ones nobody knows, and perhaps not how
     // often their readings had wrapped. Without effects the answer is the model itself, no cause.

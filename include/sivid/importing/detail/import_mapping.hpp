@@ -53,6 +53,10 @@ struct quantity_mapping {
     std::optional<std::pair<exact_decimal, exact_decimal>> period;
     std::optional<std::pair<exact_decimal, exact_decimal>> range; ///< of possible readings
     bound_source error;
+    /// Inputs only: so long [s] may samples be missing; nothing: none may.
+    std::optional<exact_decimal> bridge;
+    std::optional<exact_decimal> bridge_error; ///< there the input is within this; nothing: exact
+    input_place place;
 };
 
 /// What happens where a recorder's log breaks.
@@ -61,6 +65,32 @@ enum class break_policy {
     keep,   ///< gaps only: go on, and say so
     split,  ///< a new scenario
     drop    ///< restarts only: leave out everything from there on
+};
+
+/// Of readings at one time that differ.
+enum class same_time {
+    refuse, ///< bad input
+    first,  ///< the first one counts
+    last    ///< the last one counts
+};
+
+/// Which lines of a file count, by the text in one of their columns.
+struct line_choice {
+    bool all = false; ///< they are of one kind, whatever their texts are
+    column_reference column;
+    std::vector<std::string> is;
+
+    [[nodiscard]] bool takes(std::string const& cell) const {
+        return all || std::find(is.begin(), is.end(), cell) != is.end();
+    }
+    [[nodiscard]] friend bool operator==(line_choice const&, line_choice const&) = default;
+};
+
+/// How the times of a column are written.
+enum class time_form {
+    number, ///< of a unit
+    date,   ///< ISO 8601 with an offset from UTC
+    clock   ///< hh:mm:ss since midnight
 };
 
 /// The form of a recorded file.
@@ -77,6 +107,9 @@ struct source_form {
     exact_decimal longest_gap;       ///< serial: the longest usual step of the time [s]
     bool check_sums = false;         ///< serial: each line ends with *HHHH, its crc16
     break_policy gap = break_policy::refuse, restart = break_policy::refuse;
+    std::optional<line_choice> lines; ///< nothing: not stated
+    bool short_lines = false;         ///< csv: cells missing at the end of a line are no readings
+    same_time doubled = same_time::refuse;
 
     [[nodiscard]] bool is_missing(std::string const& cell) const {
         return cell.empty() || std::find(missing.begin(), missing.end(), cell) != missing.end();
@@ -89,6 +122,7 @@ struct time_mapping {
     column_reference column;
     std::optional<exact_decimal> sample_time; ///< no column: row k, from 0, is at k times this
     std::string unit = "s";
+    time_form form = time_form::number; ///< others are in seconds
     unit_conversion to_seconds;
     std::optional<unsigned> counter_bits; ///< serial: the counter wraps
     bool from_first = false;              ///< t = 0 is the first row with all inputs

@@ -105,6 +105,10 @@ private:
         if (auto const* form = either(entry, "source")) result.form = read_source_form(*form);
         bool const serial = result.form.from == source_form::kind::serial;
         result.time = read_time_mapping(need(entry, "time"), serial);
+        if (result.form.from == source_form::kind::matlab && result.time.form != time_form::number)
+            need(entry, "time")
+                .at("unit")
+                .fail("texts, and MATLAB files hold numbers", "write s, ms, us, ns, min or h");
         bool const splits =
             result.form.gap == break_policy::split || result.form.restart == break_policy::split;
         if (splits && !result.time.from_first)

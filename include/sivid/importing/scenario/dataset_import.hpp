@@ -3,6 +3,7 @@
 #define SIVID_IMPORTING_SCENARIO_DATASET_IMPORT_HPP
 
 #include <sivid/importing/mapping/import_mapping_reader.hpp>
+#include <sivid/importing/scenario/detail/input_bridge.hpp>
 #include <sivid/importing/scenario/detail/scenario_import.hpp>
 #include <sivid/importing/scenario/detail/start_proposal.hpp>
 #include <sivid/importing/table/recorded_files.hpp>
@@ -36,6 +37,8 @@ public:
         result_.protocol.mapping = mapping_.file.filename().string();
         for (auto const& s : mapping_.scenarios) read(s);
         check_names();
+        for (auto const& s : mapping_.scenarios)
+            for (auto const& q : s.inputs) require_bridge(s, q, open_, result_.protocol);
         for (auto const& s : open_) propose(s.inputs, true);
         for (auto const& s : open_) propose(s.channels, false);
 
@@ -78,6 +81,7 @@ private:
         }
         bool const only = stretches.size() == 1;
         auto const before = open_.size();
+        std::optional<input_error> first;
         for (std::size_t i = 0; i < stretches.size(); ++i) {
             auto const name = only ? s.name : s.name + "-" + std::to_string(i + 1);
             std::vector<open_scenario> next;
@@ -85,6 +89,7 @@ private:
                 next = scenario_import{s, name, only, protocol}.read(stretches[i]);
             } catch (input_error const& e) {
                 if (only) throw;
+                if (!first) first = e;
                 for (auto const& row : stretches[i].rows)
                     protocol.add(kind::dropped, name, "",
                                  text_of("no scenario can be made: ", e.problem()), row.line);
@@ -100,9 +105,10 @@ private:
             }
         }
         if (open_.size() == before)
-            throw input_error{{.file = s.file.string()},
-                              "no stretch of the log makes a scenario",
-                              "check the columns, \"longest_gap\", \"gap\" and \"restart\""};
+            throw input_error{first->place(),
+                              "no stretch of the log makes a scenario; of the first one: " +
+                                  first->problem(),
+                              first->remedy()};
     }
     void add_summary(open_scenario const& s, std::size_t lines) {
         import_protocol::scenario_summary summary;
@@ -208,6 +214,7 @@ private:
                 input.stated_error.push_back(bound(*q, sample, true));
                 input.error.push_back(upper(enclosed(s, sample, input.stated_error.back())));
             }
+            bridge(s, *q, input);
             input.signal = sampled_signal{std::move(times), std::move(values), s.mapping->between};
             result.inputs.push_back(std::move(input));
         }

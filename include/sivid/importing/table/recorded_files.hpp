@@ -3,6 +3,7 @@
 #define SIVID_IMPORTING_TABLE_RECORDED_FILES_HPP
 
 #include <sivid/importing/table/detail/matlab_table.hpp>
+#include <sivid/importing/table/detail/recorded_table.hpp>
 #include <sivid/importing/table/detail/serial_log.hpp>
 
 #include <algorithm>
@@ -70,7 +71,8 @@ private:
     static bool same(scenario_mapping const& a, scenario_mapping const& b) {
         return a.file == b.file && a.form == b.form && a.time.column == b.time.column &&
                a.time.sample_time == b.time.sample_time && a.time.unit == b.time.unit &&
-               a.time.counter_bits == b.time.counter_bits && columns_of(a) == columns_of(b);
+               a.time.form == b.time.form && a.time.counter_bits == b.time.counter_bits &&
+               columns_of(a) == columns_of(b);
     }
 
     import_mapping const& mapping_;

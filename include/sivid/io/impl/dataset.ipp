@@ -15,8 +15,12 @@
 #include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -155,7 +159,8 @@ private:
 
     [[nodiscard]] scenario read_scenario(json_value const& entry, stated_units const& units) const {
         entry.allow_only(
-            {"name", "role", "duration", "inputs", "interpolation", "measurements", "initial"});
+            {"name", "role", "duration", "inputs", "interpolation", "measurements", "initial",
+             "bridged"});
         scenario result;
         result.name = mapping_entries::file_name(entry.at("name"));
         result.role = entry.at("role").is_second_of("fit", "holdout") ? scenario_role::holdout
@@ -185,11 +190,42 @@ private:
             result.inputs =
                 read_inputs(csv_table::read(file("inputs")), model_, kind, result.duration, units);
         }
+        if (auto const* bridged = entry.find("bridged")) read_bridged(*bridged, result, units.time);
         read_measurements(csv_table::read(measurements), model_, result, units);
         if (result.measurements.empty())
             entry.at("measurements")
                 .fail("the scenario has no measurement", "every scenario needs at least one value");
         return result;
+    }
+
+    /// What stands where samples of an input are missing: each gap lies between two samples.
+    void read_bridged(json_value const& list, scenario& result, stated_unit const& time) const {
+        for (std::size_t i = 0; i < list.members().size(); ++i) {
+            auto const& entry = list.members()[i];
+            auto const index =
+                mapping_entries::index_of(model_.inputs, list.name_of(i), entry, "input");
+            entry.allow_only({"samples", "gaps"});
+            auto& input = result.inputs.at(index);
+            auto const& times = input.signal.times();
+            for (auto const& gap : entry.at("gaps").elements()) {
+                auto const [from, to] = mapping_entries::ends(gap, "gap");
+                std::pair const ends{time.nearest(from).value_or(-HUGE_VAL),
+                                     time.nearest(to).value_or(HUGE_VAL)}; // beyond any sample
+                auto const next = std::upper_bound(times.begin(), times.end(), ends.first);
+                if (next == times.begin() || next == times.end() ||
+                    *std::prev(next) != ends.first || *next != ends.second)
+                    gap.fail(text_of("the gap [", from.text(), ", ", to.text(),
+                                     "] does not go from one sample of ",
+                                     in_quotes(list.name_of(i)), " to the next"),
+                             "state the times of the samples around what is missing");
+                if (!input.bridged.empty() && !(input.bridged.back().second <= ends.first))
+                    gap.fail("the gaps do not follow each other", "state each once, by time");
+                input.bridged.push_back(ends);
+            }
+            if (input.bridged.empty()) entry.at("gaps").fail("no gap", "leave the input out");
+            input.missing = mapping_entries::whole(entry.at("samples"), input.bridged.size(),
+                                                   std::numeric_limits<std::int32_t>::max());
+        }
     }
 
     void read_initial(json_value const& list, scenario& result) const {

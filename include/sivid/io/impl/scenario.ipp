@@ -127,7 +127,7 @@ private:
                 entry.fail("as many values as times are needed, at least one", "correct the lists");
             if (std::adjacent_find(s.times.begin(), s.times.end(), std::greater_equal<>{}) !=
                 s.times.end())
-                entry.at("t").fail("the times do not increase", "sort them");
+                entry.at("t").fail("the times do not increase", "correct them, each time once");
         } else {
             entry.at("shape").fail(std::string{"unknown shape "} + in_quotes(name),
                                    "known here: constant, sine, ramp, samples");

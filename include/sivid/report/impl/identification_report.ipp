@@ -67,15 +67,24 @@ private:
         return about().constants[index_of(about().constants, names()[j], "constant")].unit;
     }
 
+    /// @param assumption  as `input_assumption` words it, with what is bridged after a semicolon
     [[nodiscard]] static std::string sentence_of(std::string const& assumption) {
-        if (assumption == "inputs exact") {
+        auto const end = std::min(assumption.find("; "), assumption.size());
+        auto const bridged =
+            end == assumption.size()
+                ? std::string{}
+                : " Samples are missing, and nobody knows what the input did there: " +
+                      assumption.substr(end + 2) + ".";
+        if (assumption.starts_with("inputs exact")) {
             return "The recorded inputs are exact, at their samples and in between as the data set "
-                   "states.";
+                   "states." +
+                   bridged;
         }
         if (assumption.starts_with("inputs within their stated errors")) {
             return "At every time the true inputs lie within their stated errors of the recorded "
                    "ones, in whatever way they vary there; inputs without a stated error are "
-                   "exact.";
+                   "exact." +
+                   bridged;
         }
         return assumption;
     }

@@ -86,12 +86,21 @@ TEST_CASE("times that are one double are thinned") {
     CHECK(noted(r.protocol, "the same double") == std::vector<std::size_t>{3, 3});
 }
 
-TEST_CASE("gaps of an input are an assumption") {
+TEST_CASE("what an input lacks is counted, and what cannot be told is an assumption") {
     std::string text = "time,pump,level\n";
     for (int i = 0; i < 20; ++i) text += std::to_string(i) + ",1,2\n";
     for (int i = 40; i < 60; ++i) text += std::to_string(i) + ",1,2\n";
-    CHECK(noted(read("small", "small", text).protocol, "more than five usual steps") ==
-          std::vector<std::size_t>{22});
+    auto const counted = read("small", "small", text);
+    auto const& samples = counted.scenario.inputs[0].samples;
+    REQUIRE(samples.size() == 40);
+    for (std::size_t i = 0; i < 40; ++i) CHECK(samples[i].missing == (i == 20 ? 20 : 0));
+    CHECK_FALSE(has_note(counted.protocol, "more than five usual steps"));
+    // Without a usual step nobody can tell.
+    std::string rare = "time,pump,level\n";
+    for (int const t : {0, 3, 4, 9, 11, 80, 81, 88, 90, 93}) rare += std::to_string(t) + ",1,2\n";
+    auto const r = read("small", "small", rare);
+    for (auto const& sample : r.scenario.inputs[0].samples) CHECK(sample.missing == 0);
+    CHECK(noted(r.protocol, "more than five usual steps") == std::vector<std::size_t>{7});
 }
 
 TEST_CASE("a record that makes no scenario is refused") {

@@ -106,7 +106,7 @@ TEST_CASE("references that do not fit are refused at their place") {
         CHECK_THAT(refusal(mapping(by_t, "t", "t"), w.file(w.doubles("t", 1, 2, {a, b}))),
                    ContainsSubstring(message));
     };
-    wrong(0, 0, "line 2 (t): the time '0' does not come after");
+    wrong(1, 0, "line 2 (t): the time goes back from 1 to 0 s; the recorder began again");
     wrong(0, missing, "line 2 (t): the time is missing");
     wrong(0, std::numeric_limits<double>::infinity(), "line 2 (t): an infinite number");
 }

@@ -174,8 +174,8 @@ TEST_CASE("a defect in a table is named with file, line, column and remedy") {
     has("time,pump,level\n0,1.5,nan\n", "line 2, column 3 (level): 'nan' is not a finite number");
     has("time,pump,level\n0,1e999,2\n", "'1e999' is not a finite number");
     has("time,pump,level\n,1,2\n", "line 2, column 1 (time): the time is missing");
-    has("time,pump,level\n0,1,2\n1,1,2\n1,1,2\n",
-        "line 4, column 1 (time): the time '1' does not come");
+    has("time,pump,level\n0,1,2\n1,1,2\n1,1,3\n",
+        "line 4, column 1 (time): the time '0.001' s is that of line 3, with other readings");
     has("time,pump,level\n5,1,2\n3,1,2\n", "line 3, column 1 (time)");
     has("time,pump,level\n0,\"1,2\n", "a quotation mark out of place");
     CHECK_THAT(refused(replaced(csv_mapping, "\"pump\"", "7"), small_table),

@@ -13,47 +13,47 @@
 
 namespace sivid {
 
-/// "source": separators, missing readings, fields, and what happens where a log breaks.
+/// "lines": "all", or {"column": ..., "is": text or texts}: which lines count.
 /// @throws input_error
-[[nodiscard]] inline source_form read_source_form(json_value const& entry) {
+[[nodiscard]] inline line_choice read_line_choice(json_value const& entry) {
+    using kind = json_value::kind;
+    line_choice result;
+    if (entry.type() == kind::string) {
+        result.all = true;
+        if (entry.string() != "all")
+            entry.fail(text_of("found ", in_quotes(entry.string())),
+                       "write \"all\" or {\"column\": ..., \"is\": ...}");
+        return result;
+    }
+    entry.allow_only({"column", "is"});
+    result.column = mapping_entries::column(entry.at("column"));
+    auto const add = [&](json_value const& text) {
+        result.is.push_back(text.type() == kind::number ? text.number().text() : text.string());
+    };
+    auto const& is = entry.at("is");
+    if (is.type() != kind::array) {
+        add(is);
+        return result;
+    }
+    for (auto const& text : is.elements()) add(text);
+    if (result.is.empty()) is.fail("no text", "state at least one");
+    return result;
+}
+
+/// "same_time": of readings at one time that differ.
+/// @throws input_error
+[[nodiscard]] inline same_time read_same_time(json_value const& entry) {
+    for (auto const& [word, meaning] : {std::pair{"refuse", same_time::refuse},
+                                        {"first", same_time::first},
+                                        {"last", same_time::last}})
+        if (entry.string() == word) return meaning;
+    entry.fail(text_of("found ", in_quotes(entry.string())), "write refuse, first or last");
+}
+
+/// What a log has beyond a table: fields, the longest gap, check sums, and what happens at breaks.
+/// @throws input_error
+inline void read_serial_form(json_value const& entry, source_form& form) {
     using namespace mapping_entries;
-    source_form form;
-    auto const* kind = entry.find("kind");
-    if (kind != nullptr && kind->string() == "matlab") {
-        entry.allow_only({"kind"});
-        form.from = source_form::kind::matlab;
-        return form;
-    }
-    if (kind != nullptr && kind->string() != "csv" && kind->string() != "serial")
-        kind->fail(text_of("found ", in_quotes(kind->string())), "write csv, serial or matlab");
-    bool const serial = kind != nullptr && kind->string() == "serial";
-    form.from = serial ? source_form::kind::serial : source_form::kind::csv;
-    if (serial)
-        entry.allow_only({"kind", "separator", "decimal", "missing", "fields", "longest_gap", "gap",
-                          "restart", "check_sum"});
-    else
-        entry.allow_only({"kind", "separator", "decimal", "missing", "skip_lines", "heading",
-                          "skip_after_heading"});
-    if (auto const* s = entry.find("separator"))
-        form.separator =
-            character(*s, ",;\t |:", "write \",\", \";\", \"\\t\", \"|\", \":\" or \" \" (blanks)");
-    if (auto const* d = entry.find("decimal"))
-        form.decimal = character(*d, ".,", "write \".\" or \",\"");
-    if (form.decimal == form.separator)
-        entry.fail("the decimal mark is the separator",
-                   "state a \"separator\" that differs from \"decimal\"");
-    if (auto const* missing = entry.find("missing"))
-        for (auto const& m : missing->elements()) form.missing.push_back(m.string());
-    if (!serial) {
-        if (auto const* n = entry.find("skip_lines")) form.skip_lines = whole(*n, 0, 1'000'000);
-        if (auto const* n = entry.find("skip_after_heading"))
-            form.skip_after_heading = whole(*n, 0, 1'000'000);
-        if (auto const* h = entry.find("heading")) form.heading = h->boolean();
-        if (form.heading == false && form.skip_after_heading > 0)
-            entry.at("skip_after_heading")
-                .fail("there is no heading", "count these lines under \"skip_lines\"");
-        return form;
-    }
     for (auto const& f : entry.at("fields").elements()) {
         auto const& name = f.string();
         for (auto const& other : form.fields)
@@ -76,6 +76,55 @@ namespace sivid {
     };
     form.gap = policy("gap", "keep", break_policy::keep);
     form.restart = policy("restart", "drop", break_policy::drop);
+}
+
+/// "source": separators, missing readings, fields, and what happens where a log breaks.
+/// @throws input_error
+[[nodiscard]] inline source_form read_source_form(json_value const& entry) {
+    using namespace mapping_entries;
+    source_form form;
+    auto const* kind = entry.find("kind");
+    if (kind != nullptr && kind->string() == "matlab") {
+        entry.allow_only({"kind", "same_time"});
+        form.from = source_form::kind::matlab;
+        if (auto const* s = entry.find("same_time")) form.doubled = read_same_time(*s);
+        return form;
+    }
+    if (kind != nullptr && kind->string() != "csv" && kind->string() != "serial")
+        kind->fail(text_of("found ", in_quotes(kind->string())), "write csv, serial or matlab");
+    bool const serial = kind != nullptr && kind->string() == "serial";
+    form.from = serial ? source_form::kind::serial : source_form::kind::csv;
+    if (serial)
+        entry.allow_only({"kind", "separator", "decimal", "missing", "fields", "longest_gap", "gap",
+                          "restart", "check_sum", "lines", "same_time"});
+    else
+        entry.allow_only({"kind", "separator", "decimal", "missing", "skip_lines", "heading",
+                          "skip_after_heading", "short_lines", "lines", "same_time"});
+    if (auto const* s = entry.find("separator"))
+        form.separator =
+            character(*s, ",;\t |:", "write \",\", \";\", \"\\t\", \"|\", \":\" or \" \" (blanks)");
+    if (auto const* d = entry.find("decimal"))
+        form.decimal = character(*d, ".,", "write \".\" or \",\"");
+    if (form.decimal == form.separator)
+        entry.fail("the decimal mark is the separator",
+                   "state a \"separator\" that differs from \"decimal\"");
+    if (auto const* missing = entry.find("missing"))
+        for (auto const& m : missing->elements()) form.missing.push_back(m.string());
+    if (auto const* l = entry.find("lines")) form.lines = read_line_choice(*l);
+    if (auto const* s = entry.find("same_time")) form.doubled = read_same_time(*s);
+    if (!serial) {
+        if (auto const* s = entry.find("short_lines"))
+            form.short_lines = s->is_second_of("refuse", "missing");
+        if (auto const* n = entry.find("skip_lines")) form.skip_lines = whole(*n, 0, 1'000'000);
+        if (auto const* n = entry.find("skip_after_heading"))
+            form.skip_after_heading = whole(*n, 0, 1'000'000);
+        if (auto const* h = entry.find("heading")) form.heading = h->boolean();
+        if (form.heading == false && form.skip_after_heading > 0)
+            entry.at("skip_after_heading")
+                .fail("there is no heading", "count these lines under \"skip_lines\"");
+        return form;
+    }
+    read_serial_form(entry, form);
     return form;
 }
 
@@ -99,16 +148,22 @@ namespace sivid {
     }
     if (auto const* unit = entry.find("unit")) {
         time.unit = unit->string();
+        if (step == nullptr && (time.unit == "iso8601" || time.unit == "hh:mm:ss")) {
+            time.form = time.unit == "iso8601" ? time_form::date : time_form::clock;
+            time.unit = "s";
+        }
         auto const ratio = sivid::unit(time.unit).in(sivid::unit("s"));
         if (auto const factor = ratio ? unit_conversion::of(*ratio) : std::nullopt;
             factor && factor->divisor == 1 && factor->factor_is_exact())
             time.to_seconds = *factor;
         else
             unit->fail(text_of("unknown unit ", in_quotes(time.unit)),
-                       "write s, ms, us, ns, min, h or d");
+                       "write s, ms, us, ns, min, h or d, or for a column of texts iso8601 or hh:mm:ss");
     }
     if (auto const* bits = entry.find("counter_bits")) {
         if (!serial) bits->fail("a counter in a table", "counters that wrap need a serial source");
+        if (time.form != time_form::number)
+            bits->fail("a counter of texts", "leave it out: a clock begins again at midnight");
         time.counter_bits = mapping_entries::counter_bits(*bits);
     }
     auto const* offset = entry.find("offset");
@@ -124,14 +179,67 @@ namespace sivid {
     return time;
 }
 
+/// "bridge": the longest time without a sample of an input, or with a bound of what it does there.
+/// @throws input_error
+inline void read_bridge(json_value const& entry, quantity_mapping& q) {
+    using namespace mapping_entries;
+    constexpr auto remedy = "state the longest time from a reading to the next one in seconds";
+    if (entry.type() == json_value::kind::number) {
+        q.bridge = positive(entry, remedy);
+        return;
+    }
+    entry.allow_only({"longest", "error"});
+    q.bridge = positive(entry.at("longest"), remedy);
+    q.bridge_error = positive(entry.at("error"), "state how far it may be from what stands there");
+}
+
+/// "error" of an input or a channel, and of an input what may be missing.
+/// @throws input_error
+inline void read_bound(json_value const& entry, bool input, quantity_mapping& q) {
+    using namespace mapping_entries;
+    auto const* error = entry.find("error");
+    if (auto const* b = entry.find("bridge")) {
+        if (!input) b->fail("a channel is measured where it has readings alone", "remove this key");
+        read_bridge(*b, q);
+        if (q.bridge_error && error == nullptr)
+            b->fail("a bound of what is missing in an input that is exact elsewhere",
+                    "state the \"error\" of its readings as well");
+    }
+    if (error == nullptr) {
+        if (!input) (void)entry.at("error"); // says that it is missing
+        if (!q.conversion.factor_is_exact())
+            entry.fail("an exact input with an uncertain factor",
+                       "state an \"error\"; the factor's share is added to it");
+        if (q.period && !(q.period->first == q.period->second))
+            entry.fail("an exact input with an uncertain period",
+                       "state an \"error\"; the period's share is added to it");
+        return;
+    }
+    q.error.place = error->place();
+    if (error->type() == json_value::kind::object) {
+        error->allow_only({"column"});
+        q.error.from = bound_source::kind::column;
+        q.error.column = column(error->at("column"));
+    } else if (error->type() == json_value::kind::string) {
+        if (error->string() != "propose")
+            error->fail(text_of("found ", in_quotes(error->string())),
+                        "write a number, {\"column\": ...} or \"propose\"");
+        q.error.from = bound_source::kind::proposed;
+    } else {
+        q.error.from = bound_source::kind::number;
+        q.error.number = positive(*error, "a bound of an instrument is positive");
+    }
+}
+
 /// An entry of "inputs" or "channels".
 /// @throws input_error
 [[nodiscard]] inline quantity_mapping read_quantity_mapping(json_value const& entry,
                                                             std::string const& name, bool input) {
     using namespace mapping_entries;
     entry.allow_only({"column", "unit", "factor", "divisor", "offset", "counter_bits", "period",
-                      "range", "error"});
+                      "range", "error", "bridge"});
     quantity_mapping q;
+    q.place = entry.place();
     q.name = mapping_entries::name(entry, name);
     q.column = column(entry.at("column"));
     if (auto const* unit = entry.find("unit")) {
@@ -170,31 +278,7 @@ namespace sivid {
         auto const ends = range(*r);
         q.range.emplace(ends.lower, ends.upper);
     }
-    auto const* error = entry.find("error");
-    if (error == nullptr) {
-        if (!input) (void)entry.at("error"); // says that it is missing
-        if (!q.conversion.factor_is_exact())
-            entry.fail("an exact input with an uncertain factor",
-                       "state an \"error\"; the factor's share is added to it");
-        if (q.period && !(q.period->first == q.period->second))
-            entry.fail("an exact input with an uncertain period",
-                       "state an \"error\"; the period's share is added to it");
-        return q;
-    }
-    q.error.place = error->place();
-    if (error->type() == json_value::kind::object) {
-        error->allow_only({"column"});
-        q.error.from = bound_source::kind::column;
-        q.error.column = column(error->at("column"));
-    } else if (error->type() == json_value::kind::string) {
-        if (error->string() != "propose")
-            error->fail(text_of("found ", in_quotes(error->string())),
-                        "write a number, {\"column\": ...} or \"propose\"");
-        q.error.from = bound_source::kind::proposed;
-    } else {
-        q.error.from = bound_source::kind::number;
-        q.error.number = positive(*error, "a bound of an instrument is positive");
-    }
+    read_bound(entry, input, q);
     return q;
 }
 

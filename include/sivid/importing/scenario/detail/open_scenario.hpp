@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,6 +26,11 @@ struct open_scenario {
     std::vector<imported_quantity> inputs, channels; ///< in the order of the mapping
     std::size_t first_line = 0, last_line = 0, rows = 0;
 
+    /// Whether samples of an input are missing before its i-th one, within the duration.
+    [[nodiscard]] bool lacks(imported_quantity const& q, std::size_t i) const {
+        return q.samples[i].missing > 0 && *nearest(q.samples[i].time) > 0 &&
+               *nearest(q.samples[i - 1].time) < *nearest(duration);
+    }
     /// Of the readings of a channel, every k-th is kept, as it is.
     [[nodiscard]] std::size_t kept(imported_quantity const& q) const {
         return (q.samples.size() + mapping->thin - 1) / mapping->thin;
@@ -42,60 +48,117 @@ struct open_scenario {
     }
 };
 
-/// Adds to all times. Of samples that then coincide as doubles the last counts, since a held input
-/// has stepped by then. Readings from before the step would stand beside the input after it: they
-/// are dropped, too.
-/// @throws input_error  beyond the range of double; where a linear input has two values at one time
-inline void shift_times(open_scenario& s, exact_decimal const& offset, import_protocol& protocol) {
-    bool const hold = s.mapping->between == interpolation::hold;
-    auto const differ = [](imported_sample const& a, imported_sample const& b) {
+/// Adds to all times, and decides about samples that then coincide as doubles; users call
+/// shift_times.
+class time_shift {
+public:
+    time_shift(open_scenario& s, import_protocol& protocol)
+        : s_{s},
+          protocol_{protocol},
+          doubled_{s.mapping->form.doubled},
+          hold_{s.mapping->between == interpolation::hold} {}
+
+    void by(exact_decimal const& offset) {
+        if (hold_ && doubled_ != same_time::first) find_steps(offset);
+        for (auto& q : s_.inputs) shift(q, offset, true);
+        for (auto& q : s_.channels) shift(q, offset, false);
+    }
+
+private:
+    static bool differ(imported_sample const& a, imported_sample const& b) {
         return !(a.reading.value == b.reading.value && a.reading.rounding == b.reading.rounding &&
                  a.error == b.error);
-    };
-    auto const steps_later = [&](imported_sample const& reading, double t) {
-        return std::any_of(s.inputs.begin(), s.inputs.end(), [&](imported_quantity const& input) {
-            auto const next = std::upper_bound(
-                input.samples.begin(), input.samples.end(), reading.line,
-                [](std::size_t line, imported_sample const& x) { return line < x.line; });
-            return next != input.samples.end() && *nearest(next->time) == t;
-        });
-    };
-    for (auto* list : {&s.inputs, &s.channels})
-        for (auto& q : *list) {
-            bool const input = list == &s.inputs;
-            auto const drop = [&](std::size_t line, char const* why) {
-                protocol.add(import_protocol::kind::dropped, s.stretch, q.mapping->name, why, line);
-            };
-            std::vector<imported_sample> kept;
-            std::optional<double> last;
-            for (auto& sample : q.samples) {
-                sample.time = sample.time + offset;
-                auto const t = nearest(sample.time);
-                if (!t)
-                    throw input_error{{.file = s.mapping->file.string(), .line = sample.line},
-                                      "the time is beyond the range of double",
-                                      "check the time's unit and offset"};
-                if (!input && hold && steps_later(sample, *t)) {
-                    drop(sample.line, "an input has a later sample at the same double");
+    }
+    void drop(imported_quantity const& q, std::size_t line, char const* why) {
+        protocol_.add(import_protocol::kind::dropped, s_.stretch, q.mapping->name, why, line);
+    }
+    /// The last lines in which held inputs step at a time.
+    void find_steps(exact_decimal const& offset) {
+        for (auto const& q : s_.inputs) {
+            for (std::size_t i = 0; i < q.samples.size(); ++i) {
+                if (i > 0 && !differ(q.samples[i - 1], q.samples[i])) continue;
+                if (auto const t = nearest(q.samples[i].time + offset)) {
+                    auto& line = steps_[*t];
+                    line = std::max(line, q.samples[i].line);
+                }
+            }
+        }
+    }
+    [[nodiscard]] bool steps_later(imported_sample const& reading, double t) const {
+        auto const step = steps_.find(t);
+        return step != steps_.end() && reading.line < step->second;
+    }
+
+    void shift(imported_quantity& q, exact_decimal const& offset, bool input) {
+        std::vector<imported_sample> kept;
+        std::optional<double> last;
+        for (auto& sample : q.samples) {
+            sample.time = sample.time + offset;
+            auto const t = nearest(sample.time);
+            if (!t)
+                throw input_error{{.file = s_.mapping->file.string(), .line = sample.line},
+                                  "the time is beyond the range of double",
+                                  "check the time's unit and offset"};
+            if (!input && steps_later(sample, *t)) {
+                drop(q, sample.line, "an input has a later sample at the same double");
+                continue;
+            }
+            if (last && !(*last < *t)) {
+                bool const other = differ(kept.back(), sample);
+                if (other && doubled_ == same_time::first) {
+                    drop(q, sample.line,
+                         "its time is the same double as that of the one before, which counts as "
+                         "the "
+                         "mapping says");
                     continue;
                 }
-                if (last && !(*last < *t)) {
-                    if (input && !hold && differ(kept.back(), sample))
-                        throw input_error{
-                            {.file = s.mapping->file.string(), .line = sample.line},
-                            text_of("the input ", in_quotes(q.mapping->name),
-                                    " has another value in line ", std::to_string(kept.back().line),
-                                    ", and the times of both lines are the same double"),
-                            "remove one of the lines, or state \"interpolation\": \"hold\", which "
-                            "steps there"};
-                    drop(kept.back().line, "its time is the same double as that of the next one");
-                    kept.pop_back();
-                }
-                last = t;
-                kept.push_back(std::move(sample));
+                if (other && doubled_ == same_time::refuse && !(input && hold_))
+                    refuse(q, kept.back(), sample, input);
+                drop(q, kept.back().line,
+                     !other ? "its time is the same double as that of the next one, and so "
+                              "is its reading"
+                     : input && hold_
+                         ? "its time is the same double as that of the next one, to "
+                           "which the held input steps there"
+                         : "its time is the same double as that of the next one, which "
+                           "counts as the mapping says");
+                sample.missing += kept.back().missing;
+                sample.lost += kept.back().lost;
+                kept.pop_back();
             }
-            q.samples = std::move(kept);
+            last = t;
+            kept.push_back(std::move(sample));
         }
+        q.samples = std::move(kept);
+    }
+
+    [[noreturn]] void refuse(imported_quantity const& q, imported_sample const& first,
+                             imported_sample const& second, bool input) const {
+        throw input_error{
+            {.file = s_.mapping->file.string(), .line = second.line},
+            text_of(input ? "the input " : "the channel ", in_quotes(q.mapping->name),
+                    " has another value in line ", std::to_string(first.line),
+                    ", and the times of both lines are the same double"),
+            text_of("state in the mapping's source \"lines\" if they are of two kinds, or "
+                    "\"same_time\": "
+                    "\"first\" or \"last\" for which of them counts",
+                    input ? ", or \"interpolation\": \"hold\", which steps there" : "")};
+    }
+
+    open_scenario& s_;
+    import_protocol& protocol_;
+    same_time doubled_;
+    bool hold_;
+    std::map<double, std::size_t> steps_;
+};
+
+/// Adds to all times. Samples that then coincide as doubles are one if they say the same. Of others
+/// the last counts for a held input, since it has stepped by then; readings from before the step
+/// would stand beside the input after it: they are dropped, too. Else the mapping says which
+/// counts.
+/// @throws input_error  beyond the range of double; where it says nothing
+inline void shift_times(open_scenario& s, exact_decimal const& offset, import_protocol& protocol) {
+    time_shift{s, protocol}.by(offset);
 }
 
 } // namespace sivid

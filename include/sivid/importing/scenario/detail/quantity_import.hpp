@@ -4,7 +4,9 @@
 
 #include <sivid/importing/detail/import_mapping.hpp>
 #include <sivid/importing/detail/import_protocol.hpp>
-#include <sivid/importing/table/detail/recorded_table.hpp>
+#include <sivid/importing/scenario/detail/missing_samples.hpp>
+#include <sivid/importing/table/detail/recorded_rows.hpp>
+#include <sivid/importing/table/detail/turns.hpp>
 #include <sivid/importing/table/detail/wrapped_reading.hpp>
 #include <sivid/importing/table/detail/wrapping_counter.hpp>
 #include <sivid/measurement/error_bound.hpp>
@@ -26,6 +28,9 @@ struct imported_sample {
     converted_reading reading;
     exact_decimal error; ///< as the column states it, in the model's unit; 0: stated elsewhere
     double raw = 0;      ///< as recorded, nearly
+    /// Of an input: samples before it that the record lacks, as its rows tell.
+    std::size_t missing = 0;
+    std::size_t lost = 0; ///< and lines above it that may have held one
 };
 
 /// The readings of one input or channel.
@@ -55,56 +60,97 @@ public:
     /// @param cell  index of the quantity's first cell; moved on to the next quantity's
     /// @throws input_error  for a reading beyond the range of double
     [[nodiscard]] imported_quantity read(recorded_table const& table, std::size_t& cell) {
-        bool const has_error = q_.error.from == bound_source::kind::column;
         imported_quantity result;
         result.mapping = &q_;
-        std::optional<wrapping_counter> counter;
-        if (q_.counter_bits) counter.emplace(*q_.counter_bits);
-        std::optional<wrapped_reading> turns;
-        if (q_.period) turns.emplace(q_.period->first, q_.period->second);
-        for (auto const& row : table.rows) {
-            auto raw = row.cells[cell];
-            if (!raw) {
-                drop(row.line, "no reading");
-                continue;
-            }
-            if (q_.range && (*raw < q_.range->first || q_.range->second < *raw)) {
-                drop(row.line, text_of("not in the possible range [", q_.range->first.text(), ", ",
-                                       q_.range->second.text(), "]"));
-                continue;
-            }
-            if (counter && !(raw = followed(*counter, *raw, row.line))) continue;
-            auto bounds = std::pair{*raw, *raw};
-            if (turns && !followed(*turns, bounds, row.line)) continue;
-            imported_sample sample;
-            sample.line = row.line;
-            sample.time = row.time;
-            if (has_error) {
-                auto const& error = row.cells[cell + 1];
-                if (!error || !error->is_positive()) {
-                    drop(row.line,
-                         error ? "its error bound is not above 0" : "its error bound is missing");
-                    continue;
-                }
-                sample.error = q_.conversion.bound(*error);
-            }
-            auto const converted = q_.conversion(bounds.first, bounds.second);
-            if (!converted || !enclose(sample.error))
-                throw input_error{{.file = s_.file.string(), .line = row.line},
-                                  text_of("the reading of ", in_quotes(q_.name),
-                                          " is beyond the range of double"),
-                                  "check its factor"};
-            sample.reading = *converted;
-            sample.raw = nearest(*raw).value_or(0);
-            result.samples.push_back(std::move(sample));
+        if (q_.counter_bits) counter_.emplace(*q_.counter_bits);
+        if (q_.period) turns_.emplace(q_.period->first, q_.period->second);
+        auto const smeared = smeared_rows(table, cell);
+        sample_rows rows;
+        for (std::size_t k = 0; k < table.rows.size(); ++k) {
+            auto const& row = table.rows[k];
+            auto sample = read_row(row, cell, smeared[k]);
+            rows.add(row.lost, row.cells[cell].has_value(), sample.has_value());
+            if (sample) result.samples.push_back(std::move(*sample));
         }
-        cell += has_error ? 2 : 1;
+        for (std::size_t i = 0; i < result.samples.size(); ++i) {
+            result.samples[i].missing = rows.missing_before(i);
+            result.samples[i].lost = rows.lost_before(i);
+        }
+        cell += has_error() ? 2 : 1;
         report(result);
         return result;
     }
 
 private:
     using kind = import_protocol::kind;
+
+    [[nodiscard]] bool has_error() const { return q_.error.from == bound_source::kind::column; }
+    [[nodiscard]] bool in_range(exact_decimal const& raw) const {
+        return !q_.range || !(raw < q_.range->first || q_.range->second < raw);
+    }
+
+    /// Rows whose reading is an average over a leap from one end of the range to the other.
+    [[nodiscard]] std::vector<bool> smeared_rows(recorded_table const& table,
+                                                 std::size_t cell) const {
+        std::vector<bool> result(table.rows.size(), false);
+        if (!counter_ && !turns_) return result;
+        std::vector<std::size_t> rows;
+        std::vector<double> readings;
+        for (std::size_t k = 0; k < table.rows.size(); ++k) {
+            auto const& raw = table.rows[k].cells[cell];
+            if (!raw || !in_range(*raw) || !nearest(*raw)) continue;
+            rows.push_back(k);
+            readings.push_back(*nearest(*raw));
+        }
+        auto const found = smeared_leaps(readings, period());
+        for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = found[i];
+        return result;
+    }
+    /// The period of readings that wrap.
+    [[nodiscard]] double period() const {
+        if (counter_) return std::ldexp(1.0, static_cast<int>(*q_.counter_bits));
+        return (*nearest(q_.period->first) + *nearest(q_.period->second)) / 2;
+    }
+
+    /// The sample of a row; nothing: there is none, which is noted.
+    [[nodiscard]] std::optional<imported_sample> read_row(recorded_table::row const& row,
+                                                          std::size_t cell, bool smeared) {
+        auto raw = row.cells[cell];
+        std::string why;
+        if (!raw)
+            why = "no reading";
+        else if (!in_range(*raw))
+            why = text_of("not in the possible range [", q_.range->first.text(), ", ",
+                          q_.range->second.text(), "]");
+        else if (smeared)
+            why = "between the ends of its range while those around it go through them: the "
+                  "recorder has averaged over the leap";
+        if (!why.empty()) return drop(row.line, why), std::nullopt;
+        auto const recorded = nearest(*raw).value_or(0);
+        if (counter_ && !(raw = followed(*counter_, *raw, row.line))) return std::nullopt;
+        auto bounds = std::pair{*raw, *raw};
+        if (turns_ && !followed(*turns_, bounds, row.line)) return std::nullopt;
+        imported_sample sample;
+        sample.line = row.line;
+        sample.time = row.time;
+        if (has_error()) {
+            auto const& error = row.cells[cell + 1];
+            if (!error || !error->is_positive())
+                return drop(row.line, error ? "its error bound is not above 0"
+                                            : "its error bound is missing"),
+                       std::nullopt;
+            sample.error = q_.conversion.bound(*error);
+        }
+        auto const converted = q_.conversion(bounds.first, bounds.second);
+        if (!converted || !enclose(sample.error))
+            throw input_error{
+                {.file = s_.file.string(), .line = row.line},
+                text_of("the reading of ", in_quotes(q_.name), " is beyond the range of double"),
+                "check its factor"};
+        sample.reading = *converted;
+        sample.raw = counter_ || turns_ ? nearest(bounds.first).value_or(0) : recorded;
+        return sample;
+    }
 
     void drop(std::size_t line, std::string const& why) {
         protocol_.add(kind::dropped, scenario_, q_.name, why, line);
@@ -148,32 +194,39 @@ private:
                           line);
     }
 
-    /// An angle that wraps, though nobody said so, would be a gap that only a diagnosis names.
+    /// An angle or a counter that wraps, though nobody said so, would be a gap that only a
+    /// diagnosis names.
     void suspect_period(imported_quantity const& result) {
-        for (auto const& [period, entry] :
-             {std::pair{360.0, "360"},
-              {6.283185307179586, "[6.283185307179586, 6.283185307179587]"}}) {
-            std::size_t jumps = 0, others = 0, line = 0;
-            double low = HUGE_VAL, high = -HUGE_VAL, last = 0;
-            for (auto const& s : result.samples) {
-                double const now = s.raw, by = low > high ? 0 : std::abs(now - last);
-                if (by > 0.9 * period && by <= period) ++jumps, line = jumps == 1 ? s.line : line;
-                if (by > 0.25 * period) ++others;
-                low = std::min(low, now);
-                high = std::max(high, now);
-                last = now;
-            }
-            if (jumps == 0 || others > jumps || high - low > period) continue;
-            protocol_.add(kind::decided, scenario_, q_.name,
-                          text_of("the reading jumps by nearly ", period > 7 ? "360" : "2 pi",
-                                  ": if it is an angle that wraps, state \"period\": ", entry),
-                          line);
-            return;
+        std::vector<double> readings;
+        for (auto const& s : result.samples) readings.push_back(s.raw);
+        auto const found = suspected_period(readings);
+        if (!found) return;
+        protocol_.add(kind::decided, scenario_, q_.name,
+                      text_of("the reading jumps by nearly ", found->words,
+                              ": if it wraps there, state ", found->entry),
+                      result.samples[found->at].line);
+    }
+
+    /// Where a gap is so long that the quantity may have gone half a period and more.
+    void doubt_turns(imported_quantity const& result) {
+        std::vector<double> times, readings;
+        for (auto const& s : result.samples) {
+            times.push_back(nearest(s.time).value_or(0));
+            readings.push_back(s.raw);
         }
+        for (auto const k : doubtful_turns(times, readings, period()))
+            protocol_.add(
+                kind::assumed, scenario_, q_.name,
+                "whole turns may be lost where readings are missing: at the largest rate seen "
+                "that time is enough for half a turn",
+                result.samples[k].line);
     }
 
     void report(imported_quantity const& result) {
-        if (!q_.period && !q_.counter_bits) suspect_period(result);
+        if (q_.period || q_.counter_bits)
+            doubt_turns(result);
+        else
+            suspect_period(result);
         if (auto const text = q_.conversion.text(); !text.empty())
             protocol_.add(kind::changed, scenario_, q_.name,
                           text + (q_.unit.empty() ? "" : " [" + q_.unit + "]"));
@@ -203,6 +256,8 @@ private:
     quantity_mapping const& q_;
     std::string const& scenario_;
     import_protocol& protocol_;
+    std::optional<wrapping_counter> counter_;
+    std::optional<wrapped_reading> turns_;
 };
 
 } // namespace sivid

@@ -52,6 +52,7 @@ public:
             protocol_.add(kind::changed, name_, "",
                           text_of("time shifted by ", offset.text(), " s"));
         shift_times(whole, offset, protocol_);
+        for (auto& q : whole.inputs) mark_missing(q);
         whole.duration = duration(whole);
         if (s_.thin > 1)
             protocol_.add(kind::changed, name_, "",
@@ -104,7 +105,6 @@ private:
         if (s.measurement_count() == 0)
             fail(s.last_line, "no measurement lies within the duration",
                  "check the channels' columns and the time's offset");
-        for (auto const& q : s.inputs) report_gaps(q);
     }
 
     [[nodiscard]] exact_decimal duration(open_scenario const& result) const {
@@ -171,23 +171,26 @@ private:
              [&](exact_decimal const& t) { return *nearest(t) >= first && *nearest(t) <= last; });
     }
 
-    /// Where an input has no reading for more than five usual steps, its course is an assumption.
-    void report_gaps(imported_quantity const& q) {
+    /// Counts what an input lacks: as its times tell, or its rows, or where neither is regular the
+    /// lines that were lost. What cannot be told so, but is long, is noted.
+    void mark_missing(imported_quantity& q) {
+        auto& all = q.samples;
         std::vector<double> steps;
-        for (std::size_t i = 1; i < q.samples.size(); ++i)
-            steps.push_back(*nearest(q.samples[i].time) - *nearest(q.samples[i - 1].time));
-        if (steps.empty()) return;
+        for (std::size_t i = 1; i < all.size(); ++i)
+            steps.push_back(*nearest(all[i].time) - *nearest(all[i - 1].time));
+        bool regular = false;
+        auto const missing = missing_by_steps(steps, 0.25, regular);
         auto sorted = steps;
-        std::nth_element(sorted.begin(),
-                         sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                         sorted.end());
-        double const usual = sorted[sorted.size() / 2];
-        for (std::size_t i = 0; i < steps.size(); ++i)
-            if (steps[i] > 5 * usual)
+        std::sort(sorted.begin(), sorted.end());
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            auto& sample = all[i + 1];
+            sample.missing = std::max({sample.missing, missing[i], regular ? 0 : sample.lost});
+            if (sample.missing == 0 && steps[i] > 5 * sorted[sorted.size() / 2])
                 protocol_.add(kind::assumed, name_, q.mapping->name,
                               "more than five usual steps without a reading before this line: the "
                               "input stands as interpolated",
-                              q.samples[i + 1].line);
+                              sample.line);
+        }
     }
 
     scenario_mapping const& s_;

@@ -3,7 +3,7 @@
 #define SIVID_IMPORTING_TABLE_DETAIL_MATLAB_TABLE_HPP
 
 #include <sivid/importing/table/detail/matlab_file.hpp>
-#include <sivid/importing/table/detail/recorded_table.hpp>
+#include <sivid/importing/table/detail/recorded_rows.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -99,7 +99,8 @@ read_matlab_table(scenario_mapping const& s, matlab_file const& file, import_pro
                           std::string const& remedy) {
         throw input_error{{.file = file.name(), .line = line, .heading = heading}, problem, remedy};
     };
-    recorded_rows rows{s, [&](std::size_t line, bool, auto const& problem, auto const& remedy) {
+    recorded_rows rows{s, protocol,
+                       [&](std::size_t line, bool, auto const& problem, auto const& remedy) {
                            fail(line, s.time.column.heading, problem, remedy);
                        }};
     auto references = columns_of(s);

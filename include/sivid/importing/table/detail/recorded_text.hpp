@@ -21,21 +21,24 @@ struct recorded_line {
     bool ended = true;      ///< false: the file ends before the line does
 };
 
-/// The lines of a text, ended by LF or CRLF.
+/// The lines of a text, ended by LF or CRLF. A byte-order mark at the begin of one, as where files
+/// were joined, is no part of it.
 [[nodiscard]] inline std::vector<recorded_line> lines_of(std::string_view text) {
     std::vector<recorded_line> lines;
     while (!text.empty()) {
         auto const end = text.find('\n');
         auto line = text.substr(0, end);
         if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
         lines.push_back({lines.size() + 1, line, end != std::string_view::npos});
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
     return lines;
 }
 
-[[nodiscard]] inline std::string_view without_blanks(std::string_view text) {
-    constexpr std::string_view blanks = " \t";
+/// @param separator  of cells: it is no blank
+[[nodiscard]] inline std::string_view without_blanks(std::string_view text, char separator = ' ') {
+    std::string_view const blanks = separator == '\t' ? " " : " \t";
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
     return text.substr(0, text.find_last_not_of(blanks) + 1);
 }

@@ -72,14 +72,17 @@ public:
     /// @param bits  of the counter; nothing: it never wraps
     /// @param longest  the longest usual step [s]
     /// @param tick  of the clock [s]
-    time_stamps(std::optional<unsigned> bits, exact_decimal longest, exact_decimal tick)
-        : longest_{std::move(longest)}, tick_{std::move(tick)} {
+    /// @param clock  times of day in seconds, which begin anew at midnight
+    time_stamps(std::optional<unsigned> bits, exact_decimal longest, exact_decimal tick,
+                bool clock = false)
+        : clock_{clock}, longest_{std::move(longest)}, tick_{std::move(tick)} {
+        if (clock) range_ = exact_decimal::parse("86400");
         if (bits) range_ = exact_decimal::parse(std::to_string(std::uint64_t{1} << *bits));
     }
 
     /// Whether a counter can show this: whole and below 2^bits.
     [[nodiscard]] bool possible(exact_decimal const& a) const {
-        if (!range_) return true;
+        if (!range_ || clock_) return true; // 24:00:00 is a time of day, too
         return !a.is_negative() && a < *range_ && whole_number(a).has_value();
     }
     /// From a to b, through the end of the counter where b is less than a; nothing: back.
@@ -96,8 +99,11 @@ public:
         return way && way->is_positive() && !(longest_ < way->times(tick_));
     }
     [[nodiscard]] bool wraps() const { return range_.has_value(); }
+    /// What wraps, for messages.
+    [[nodiscard]] char const* name() const { return clock_ ? "clock" : "counter"; }
 
 private:
+    bool clock_;
     std::optional<exact_decimal> range_;
     exact_decimal longest_, tick_;
 };

@@ -77,7 +77,8 @@ template <class T>
             table.fail(row.line, 0,
                        text_of("the time ", in_quotes(row.cells[0]),
                                " does not come after the one before it"),
-                       "sort the lines by time and keep each time once");
+                       "correct it, or leave the line out: each time stands once, and a clock that "
+                       "began again is another scenario");
         times.push_back(time);
     }
     return times;

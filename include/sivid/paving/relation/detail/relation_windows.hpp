@@ -224,7 +224,8 @@ public:
                 nearest_text(motions_[since.begin()->first].variation[s].period, 6) + " " +
                 about().time_unit + " by at most " + text);
         }
-        if (row(i).uses_inputs) result.assumptions.emplace_back("inputs exact");
+        if (row(i).uses_inputs)
+            result.assumptions.push_back("inputs exact" + bridging_words(problem_->experiments));
         auto used = tubes;
         if (!by_sensor_alone(row(i))) used.insert(i);
         bool starts = false;
