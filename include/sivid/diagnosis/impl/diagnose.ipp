@@ -17,6 +17,7 @@
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/detail/opening_words.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
+#include <sivid/diagnosis/claim/detail/shared_bounds.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap/detail/confined_gap.hpp>
 #include <sivid/diagnosis/gap/detail/gap_proof.hpp>
@@ -68,6 +69,8 @@ public:
             if (!run_.candidates.empty() && !effort_.stopped()) find_causes(tried);
         }
         discharge_sensors();
+        share_bounds(run_);
+        if (!run_.candidates.empty()) announce();
         answer_hulls(run_, effort_, options_)(); // last: they take what time there is
         settle_claims(run_);
         state_constants();
