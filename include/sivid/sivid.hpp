@@ -187,6 +187,7 @@
 #include <sivid/paving/static/static_program.hpp>
 #include <sivid/paving/static_inversion.hpp>
 #include <sivid/paving/static_problem.hpp>
+#include <sivid/paving/static_words.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/decision/control_law.hpp>
