@@ -99,7 +99,7 @@ inline void print_times(sivid::diagnosis const& d) {
             bool const known = o.hull && o.prior && width(*o.hull) < width(*o.prior);
             std::cout << what << value_words(o)
                       << (known ? ", within " + sivid::report::outward_text(*o.hull) + " s (proved)"
-                                : std::string{"; no other time is excluded"})
+                                : std::string{"; no bound of it is proved"})
                       << "\n";
         }
     };

@@ -70,7 +70,7 @@ public:
         }
         discharge_sensors();
         share_bounds(run_);
-        if (!run_.candidates.empty()) announce();
+        announce();
         answer_hulls(run_, effort_, options_)(); // last: they take what time there is
         settle_claims(run_);
         state_constants();
@@ -135,11 +135,9 @@ private:
         return result;
     }
     void announce() {
-        if (!options_.first_sentence) return;
+        if (!options_.first_sentence || run_.candidates.empty()) return;
         auto text = opening_words(run_.result, run_.base, run_.candidates.front().fit);
-        if (text == said_) return;
-        said_ = std::move(text);
-        options_.first_sentence(said_);
+        if (text != said_) options_.first_sentence(said_ = std::move(text));
     }
 
     /// Which effects, and what of that can be proved: all candidates before anything that only
