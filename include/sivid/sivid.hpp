@@ -30,6 +30,7 @@
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/number/traits_by_bounds.hpp>
 #include <sivid/space/box.hpp>
@@ -134,6 +135,7 @@
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/curve/curve_shapes.hpp>
 #include <sivid/paving/divisors.hpp>
+#include <sivid/paving/excluded_between.hpp>
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identification_state.hpp>
