@@ -261,7 +261,7 @@ int main(int argc, char** argv) {
         if (word == "--seconds" && k + 1 < argc) {
             options.search.seconds = std::atof(argv[++k]);
         } else if (word == "--no-windows") {
-            options.windows = false;
+            options.shapes = options.equations = options.windows = false;
         } else if (word == "--as-recorded") {
             options.slower_inputs = false;
         } else if (word == "--equations") {

@@ -101,7 +101,7 @@ inline void print_times(sivid::diagnosis const& d) {
             std::cout << what << value_words(o)
                       << (known ? ", within " + sivid::report::outward_text(*o.hull) + " " +
                                       o.unit + " (proved)"
-                                : std::string{"; no other time is excluded"})
+                                : std::string{"; no bound of it is proved"})
                       << "\n";
         }
     };

@@ -86,8 +86,9 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     for (auto const& p : view.parameters) {
         if (report::is_empty(p.hull)) continue;
         std::cout << "    " << p.name << " in " << report::outward_text_within(p.hull, p.prior)
-                  << (p.unit == "1" ? "" : " " + p.unit)
-                  << (report::keeps_prior(p) ? "  (nothing excluded)" : "") << "\n";
+                  << (p.unit == "1" ? "" : " " + p.unit);
+        auto const note = report::exclusion_note(view, p);
+        std::cout << (note.empty() ? "" : "  (" + note + ")") << "\n";
     }
     sivid::file_set files(out);
     files.add("model.html", report::identification_page(view).str());

@@ -67,7 +67,8 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
         if (report::is_empty(p.hull)) continue;
         std::cout << "  " << p.name << " in " << report::outward_text_within(p.hull, p.prior) << " "
                   << p.unit;
-        if (report::keeps_prior(p)) std::cout << "  (nothing excluded)";
+        auto const note = report::exclusion_note(view, p);
+        if (!note.empty()) std::cout << "  (" << note << ")";
         std::cout << "\n";
     }
     for (auto const& c : view.combinations)

@@ -30,6 +30,7 @@
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/number/traits_by_bounds.hpp>
 #include <sivid/space/box.hpp>
@@ -135,6 +136,7 @@
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/curve/curve_shapes.hpp>
 #include <sivid/paving/divisors.hpp>
+#include <sivid/paving/excluded_between.hpp>
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/identification_state.hpp>
@@ -188,6 +190,7 @@
 #include <sivid/paving/static/static_program.hpp>
 #include <sivid/paving/static_inversion.hpp>
 #include <sivid/paving/static_problem.hpp>
+#include <sivid/paving/static_words.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/decision/control_law.hpp>

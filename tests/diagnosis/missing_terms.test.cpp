@@ -79,6 +79,15 @@ TEST_CASE("a law that no catalogue has is found and its size bounded with proof"
     CHECK(bounded);
 }
 
+TEST_CASE("a product of third degree is found, and not answered by another shape") {
+    auto const run = diagnosed([](double, double v, double u) { return -0.8 * v * v * u; });
+    INFO(joined(run.result.effects));
+    explained(run.result);
+    CHECK_THAT(joined(run.result.effects), ContainsSubstring("v'~") && ContainsSubstring("*u*v^2"));
+    for (auto const& w : run.result.where)
+        if (w.kind == "equation") CHECK(w.law == "u*v^2");
+}
+
 TEST_CASE("a law is found though experiments that rest do not show it") {
     auto const d = diagnosed([](double, double v, double) { return -0.5 * v * v * v; }, 2).result;
     INFO(joined(d.effects));

@@ -54,7 +54,14 @@ TEST_CASE("a trajectory refuses boxes and steps that make no sense") {
                     std::invalid_argument);
     CHECK_THROWS_AS(run.begin(0, x, box{interval_traits<interval>::entire()}),
                     std::invalid_argument);
+    CHECK_THROWS_WITH(run.begin(0, box{}, x),
+                      ContainsSubstring("has 1 state and 1 unknown parameter, but boxes of 0 sides "
+                                        "and 1 side were given"));
+    CHECK_THROWS_WITH(run.begin(0, x, box{interval_traits<interval>::entire()}),
+                      ContainsSubstring("the range of the parameter '") &&
+                          ContainsSubstring("' is empty or unbounded"));
     run.begin(0, x, x);
+    CHECK_THROWS_WITH(run.step(-1), ContainsSubstring("not from 0 to -1"));
     CHECK_THROWS_AS(run.step(0), std::invalid_argument);
     CHECK_THROWS_AS(run.step(-1), std::invalid_argument);
     CHECK_THROWS_AS(run.step(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);

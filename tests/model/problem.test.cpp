@@ -35,7 +35,7 @@ TEST_CASE("each defect of a problem is named") {
     p.choice.unknown.clear();
     refused("no unknown parameter");
     p.prior = box{between(0, 1)};
-    refused("one side per parameter");
+    refused("one side per parameter: 2 are needed, 1 was given");
     p.prior[1] = empty;
     refused("prior is empty");
     p.experiments.clear();

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 using namespace sivid;
@@ -257,6 +259,25 @@ TEST_CASE("Taylor models: constants and variables") {
     REQUIRE(rational(c.c()[0]) + rational(c.r()) >= rational(3) / 10);
     REQUIRE_FALSE(std::isfinite(model::constant(interval_traits<interval>::entire()).r()));
     REQUIRE_FALSE(std::isfinite(model::constant(interval_traits<interval>::empty()).r()));
+}
+
+TEST_CASE("Taylor models: a growing vector moves them") {
+    using model = taylor_model<double>;
+    static_assert(std::is_nothrow_move_constructible_v<model>);
+    auto const x = model::variable(model_shape<double>::of(3, 2), 1, 3.0, 0.25);
+    std::vector<model> all;
+    all.reserve(1);
+    all.push_back(x);
+    auto const* const block = all.front().c();
+    for (int k = 0; k < 20; ++k) all.push_back(x);
+    CHECK(all.front().c() == block);
+    auto const moved = std::move(all.front());
+    CHECK(moved.c() == block);
+    CHECK(support::value<rational>(moved, {0, 1, 0}) == rational(3.25));
+    // What is held within itself is copied: it has no block.
+    auto number = model::constant(2.5);
+    auto const other = std::move(number);
+    CHECK(other.c(0) == 2.5);
 }
 
 TEST_CASE("Taylor models: conversion moves what does not fit into the radius") {

@@ -110,7 +110,8 @@ TEST_CASE("slower inputs keep the truth") {
         CAPTURE(seed);
         identify_options options;
         options.search.seconds = 5; // all of them are spent: what is looked at comes first
-        options.windows = false;    // nor equations, which tell as much by themselves
+        // Equations tell as much by themselves.
+        options.shapes = options.equations = options.windows = false;
         options.only_hulls = true;
         auto const found = identify(planted.problem, options);
         REQUIRE(found.verdict != verdict::inconsistent);

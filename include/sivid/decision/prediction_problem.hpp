@@ -7,6 +7,8 @@
 #include <sivid/model/change/added_start.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/parameter_choice.hpp>
+#include <sivid/number/text/nearest_text.hpp>
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/space/box.hpp>
@@ -88,15 +90,22 @@ struct prediction_problem {
             fail("the model has a delay, a play or a rate limit of unknown size, which cannot be "
                  "enclosed; leave "
                  "the effect out");
-        if (!(end > 0) || !std::isfinite(end)) fail("the duration must be above 0 and finite");
+        if (!(end > 0) || !std::isfinite(end))
+            fail("the duration must be above 0 and finite, not " + nearest_text(end));
         if (sets.empty()) fail("no parameters are left to predict for");
         for (auto const& s : sets) {
-            if (s.size() != choice.unknown.size()) fail("a set needs one side per parameter");
+            if (s.size() != choice.unknown.size())
+                fail("a set needs one side per parameter" +
+                     needed_given(choice.unknown.size(), s.size()));
             if (!bounded(s)) fail("the sets must be bounded and not empty");
         }
-        if (initial.size() != model.about.states.size()) fail("the start needs one side per state");
+        if (initial.size() != model.about.states.size())
+            fail("the start needs one side per state" +
+                 needed_given(model.about.states.size(), initial.size()));
         if (!bounded(initial)) fail("the starts must be bounded and not empty");
-        if (inputs.size() != model.about.inputs.size()) fail("one signal per input is needed");
+        if (inputs.size() != model.about.inputs.size())
+            fail("one signal per input is needed" +
+                 needed_given(model.about.inputs.size(), inputs.size()));
     }
 };
 

@@ -2,8 +2,10 @@
 #ifndef SIVID_ENCLOSURE_TRAJECTORY_HPP
 #define SIVID_ENCLOSURE_TRAJECTORY_HPP
 
+#include <sivid/enclosure/detail/required_boxes.hpp>
 #include <sivid/enclosure/step/detail/stepper.hpp>
 #include <sivid/number/guard.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,16 +31,7 @@ public:
     /// @given  boxes of the flow's sizes, not empty, bounded (checked)
     void begin(double time, basic_box<I> const& initial, basic_box<I> const& parameters) {
         require_sound_environment();
-        if (initial.size() != flow_->states() || parameters.size() != flow_->parameters()) {
-            throw std::invalid_argument("trajectory: the boxes do not have the model's sizes");
-        }
-        for (auto const* x : {&initial, &parameters}) {
-            for (I const& side : *x) {
-                if (!std::isfinite(traits::mag(side))) {
-                    throw std::invalid_argument("trajectory: empty or unbounded box");
-                }
-            }
-        }
+        enclosure_detail::require_boxes("trajectory", *flow_, initial, parameters);
         ensemble_.emplace(initial, parameters);
         stepper_.set_ensemble(*ensemble_);
         set_ = doubleton<I>::start(time, initial, flow_->parameters());
@@ -50,7 +43,9 @@ public:
     /// @returns false when none could be proved: see `failure()`; what came before stays proved.
     [[nodiscard]] bool step(double limit) {
         if (failure_) return false;
-        if (!(limit > set_.time)) throw std::invalid_argument("trajectory: a step must go forward");
+        if (!(limit > set_.time))
+            throw std::invalid_argument("trajectory: a step must go forward, not from " +
+                                        nearest_text(set_.time) + " to " + nearest_text(limit));
         enclosure_failure why;
         if (steps_ >= options_.maximum_steps) {
             why.reason = failure_reason::step_limit;

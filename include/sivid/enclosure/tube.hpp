@@ -4,6 +4,7 @@
 
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/trajectory.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -66,7 +67,8 @@ public:
     /// @cost  that of one step for each end that lies inside a step
     [[nodiscard]] basic_box<I> over(double from, double to) const {
         if (!(from <= to))
-            throw std::invalid_argument("tube: a span must not end before it begins");
+            throw std::invalid_argument("tube: a span must not end before it begins: from " +
+                                        nearest_text(from) + " to " + nearest_text(to));
         if (from == to) return at(from);
         basic_box<I> result = hull(at(from), at(to));
         for (auto const& step : steps_) {
@@ -113,7 +115,10 @@ private:
     /// @throws std::out_of_range outside [begin_time, end_time], and without a step
     [[nodiscard]] tube_step<I> const& step_at(double t) const {
         if (steps_.empty() || !(t >= begin_time() && t <= end_time())) {
-            throw std::out_of_range("tube: time outside the proved span");
+            throw std::out_of_range("tube: time " + nearest_text(t) + " outside the proved span" +
+                                    (steps_.empty() ? ", which has no step"
+                                                    : " from " + nearest_text(begin_time()) +
+                                                          " to " + nearest_text(end_time())));
         }
         return *std::lower_bound(steps_.begin(), steps_.end(), t,
                                  [](tube_step<I> const& s, double time) { return s.to < time; });
@@ -142,7 +147,9 @@ template <class I = interval>
 [[nodiscard]] tube<I> integrate(std::shared_ptr<flow const> f, basic_box<I> const& initial,
                                 basic_box<I> const& parameters, double from, double to,
                                 enclosure_options const& options = {}) {
-    if (!(from <= to)) throw std::invalid_argument("integrate: the end lies before the begin");
+    if (!(from <= to))
+        throw std::invalid_argument("integrate: the end, " + nearest_text(to) +
+                                    ", lies before the begin, " + nearest_text(from));
     auto const how = for_span(options, to - from);
     trajectory<I> run(*f, how);
     run.begin(from, initial, parameters);

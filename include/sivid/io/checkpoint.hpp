@@ -21,7 +21,7 @@ namespace sivid {
 
 namespace io_detail {
 
-inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-6";
+inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-7";
 
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
@@ -105,6 +105,7 @@ void list_state(Lines& line, State& state) {
         bool empty = w.empty();
         line.rest(size_of{w.starts}, empty, w.rounds, w.windows, w.longest, w.seconds);
         line("slower_inputs", w.input_period, w.integrations);
+        line("without_runs", w.by_equations, w.by_observers);
         for (auto& x : w.starts) line("from", x);
         if (!empty) line("rest", w.rest);
     } else {

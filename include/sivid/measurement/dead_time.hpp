@@ -10,8 +10,8 @@ namespace sivid {
 /// How late a signal is: by a delay, and by a share of the time since the begin, since its clock
 /// runs slow. Before the begin it stands still.
 struct dead_time {
-    double delay = 0; ///< [s], at least 0
-    double drift = 0; ///< [s/s], at least 0; from 1 on the clock stands, and nothing new is seen
+    double delay = 0; ///< in the model's unit of time, at least 0
+    double drift = 0; ///< a share, at least 0; from 1 on the clock stands, and nothing new is seen
 
     [[nodiscard]] bool any() const { return delay > 0 || drift > 0; }
     /// When what is seen at t happened, in doubles.

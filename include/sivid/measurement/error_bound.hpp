@@ -5,6 +5,7 @@
 #include <sivid/measurement/detail/local_residual.hpp>
 #include <sivid/measurement/quantisation.hpp>
 #include <sivid/number/text/nearest_text.hpp>
+#include <sivid/number/text/needed_given.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +97,8 @@ inline constexpr double explained_steps = 0.6;
     constexpr std::size_t least_support = 20;
     constexpr double margin = 1.25, sigmas = 4, far = 6;
     if (times.size() != values.size())
-        throw std::invalid_argument("propose_error_bound: needs as many values as times");
+        throw std::invalid_argument("propose_error_bound: needs as many values as times" +
+                                    needed_given(times.size(), values.size()));
     for (std::size_t i = 0; i < times.size(); ++i)
         if (!std::isfinite(times[i]) || !std::isfinite(values[i]) ||
             (i > 0 && !(times[i - 1] < times[i])))

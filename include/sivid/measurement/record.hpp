@@ -13,7 +13,7 @@ namespace sivid {
 /// What an instrument proves: the true value of `channel` at `time` lies in `bound`, unless the
 /// sample is an outlier.
 struct measurement {
-    double time = 0;         ///< [s]
+    double time = 0;         ///< in the model's unit of time
     std::size_t channel = 0; ///< index into the model's channels
     interval bound;          ///< in the channel's unit
 };

@@ -150,10 +150,10 @@ public:
     [[nodiscard]] expression& channel(std::string const& name);
 
     /// A further state, whose rate the effect sets.
-    /// @param limit     own range |x| <= limit
+    /// @param limit     own range
     /// @param at_begin  its initial value, in inputs (at the begin), constants, and states that
     ///                  effects added before
-    expression add_state(std::string const& name, std::string const& unit, double limit,
+    expression add_state(std::string const& name, std::string const& unit, state_range limit,
                          expression const& at_begin);
     /// The model sees the input behind a memory whose size is the effect's k-th parameter: late, by
     /// a time or (`drift`: its clock runs slow) by a share of the time since the begin; behind a

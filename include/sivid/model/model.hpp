@@ -3,6 +3,7 @@
 #define SIVID_MODEL_MODEL_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/detail/state_range.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/graph/detail/formula_text.hpp>
 #include <sivid/model/graph/detail/linear_solution.hpp>
@@ -37,11 +38,11 @@ struct quantity {
     std::string_view unit;
 };
 
-/// A state with its own range \f$ |x| \le limit \f$, used where nothing else is known of it.
+/// A state with its own range, `{"u", "m/s", 8}` or `{"c", "mol/l", {0, 5}}` (`state_range`).
 struct state_quantity {
     std::string_view name;
     std::string_view unit;
-    double limit;
+    state_range limit;
     std::string_view equation = {}; ///< what its equation is called; its own name by default
 };
 
@@ -206,7 +207,7 @@ struct model_description {
 
     struct state {
         std::string name, unit;
-        double limit = 0;       ///< own range: |x| <= limit
+        state_range limit{};    ///< own range
         std::string equation{}; ///< what its equation is called; empty: as the state
         [[nodiscard]] std::string const& equation_name() const {
             return equation.empty() ? name : equation;

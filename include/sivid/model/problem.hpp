@@ -5,6 +5,7 @@
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/bound_model.hpp>
 #include <sivid/number/text/nearest_text.hpp>
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -96,19 +97,23 @@ namespace model_detail {
 template <class Fail>
 void require_prior(parameter_choice const& choice, box const& prior, Fail const& fail) {
     if (choice.unknown.empty()) fail("no unknown parameter");
-    if (choice.unknown.size() != prior.size()) fail("the prior needs one side per parameter");
+    if (choice.unknown.size() != prior.size())
+        fail("the prior needs one side per parameter" +
+             needed_given(choice.unknown.size(), prior.size()));
     for (auto const& name : choice.unknown)
         if (choice.fixed.count(name) != 0)
             fail("'" + name + "' is unknown and has a fixed value; leave one of them out");
     if (is_empty(prior)) fail("the prior is empty");
-    for (auto const& side : prior)
-        if (!std::isfinite(mag(side)) || !std::isfinite(width(side)))
-            fail("the prior must be bounded");
+    for (std::size_t j = 0; j < prior.size(); ++j)
+        if (!std::isfinite(mag(prior[j])) || !std::isfinite(width(prior[j])))
+            fail("the prior of '" + choice.unknown[j] + "' must be bounded");
 }
 /// The same of a measurement.
 template <class Fail>
 void require_reading(measurement const& m, recorded_model const& model, Fail const& fail) {
-    if (m.channel >= model.about.channels.size()) fail("unknown channel");
+    if (m.channel >= model.about.channels.size())
+        fail("unknown channel: number " + std::to_string(m.channel) + " of " +
+             std::to_string(model.about.channels.size()) + ", counted from 0");
     if (!std::isfinite(m.time)) fail("a measurement at no finite time");
     if (is_empty(m.bound) || !std::isfinite(mig(m.bound))) // beyond all doubles
         fail("an empty measurement");
@@ -159,7 +164,8 @@ struct identification_problem {
                 fail("the model '" + model.about.name + "' has " + std::to_string(wanted) +
                      " inputs, but " + std::to_string(given) + " signals were given");
             if (e.initial.size() != model.about.states.size())
-                fail("the initial box needs one side per state");
+                fail("the initial box needs one side per state" +
+                     needed_given(model.about.states.size(), e.initial.size()));
         }
     }
     /// @throws std::invalid_argument that names what does not fit
@@ -174,18 +180,23 @@ struct identification_problem {
         for (auto const& s : experiments) {
             auto const where = "experiment '" + s.name + "': ";
             if (is_empty(s.initial)) fail(where + "the initial box is empty");
-            for (auto const& side : s.initial)
-                if (!std::isfinite(mag(side))) fail(where + "the initial box must be bounded");
+            for (std::size_t i = 0; i < s.initial.size(); ++i)
+                if (!std::isfinite(mag(s.initial[i])))
+                    fail(where + "the initial box must be bounded, in '" +
+                         model.about.states[i].name + "', too");
             if (!std::isfinite(s.begin)) fail(where + "it begins at no finite time");
             if (s.measurements.empty()) fail(where + "no measurement");
             if (s.outliers > s.measurements.size()) {
-                fail(where + "more outliers allowed than there are measurements");
+                fail(where + "more outliers allowed than there are measurements: " +
+                     std::to_string(s.outliers) + " of " + std::to_string(s.measurements.size()));
             }
             if (s.constraint && s.outliers > 0) fail(where + "a condition allows no outliers");
             for (auto const& m : s.measurements) {
                 model_detail::require_reading(m, model,
                                               [&](std::string const& what) { fail(where + what); });
-                if (!(m.time >= s.begin)) fail(where + "a measurement before the begin");
+                if (!(m.time >= s.begin))
+                    fail(where + "a measurement before the begin: at " + nearest_text(m.time) +
+                         ", it begins at " + nearest_text(s.begin));
             }
         }
     }

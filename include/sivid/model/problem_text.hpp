@@ -77,7 +77,10 @@ inline void describe(canonical_text& t, graph const& g) {
 
 inline void describe(canonical_text& t, recorded_model const& m) {
     t("model", m.about.name, m.about.time_unit);
-    for (auto const& s : m.about.states) t("state", s.name, s.unit, s.limit);
+    for (auto const& s : m.about.states) {
+        t("state", s.name, s.unit, s.limit.upper);
+        if (s.limit.lower != -s.limit.upper) t("from", s.limit.lower);
+    }
     for (auto const& i : m.about.inputs) t("input", i.name, i.unit);
     for (auto const& c : m.about.channels) t("channel", c.name, c.unit);
     for (auto const& c : m.about.constants) {

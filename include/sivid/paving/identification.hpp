@@ -56,13 +56,17 @@ struct search_effort {
     std::optional<double> sufficient_ratio{}, hull_gain{};
 };
 
-/// How windows of the records, or slower inputs, contracted the prior before it was searched.
+/// How windows of the records, slower inputs, state equations or interval observers contracted the
+/// prior before it was searched.
 struct window_effort {
     std::size_t windows = 0; ///< that were carried, all together
     double longest = 0;      ///< of them [s]
     double seconds = 0;
     double left = 1;         ///< at most so much of the prior's volume
     double input_period = 0; ///< of `with_slower_inputs` [s]; 0: inputs as they are
+    /// The shares of the volume that the state equations between samples, and interval observers,
+    /// have each left of what they were given; 1: nothing was cut off.
+    double by_equations = 1, by_observers = 1;
 };
 
 /// What was found about a problem; everything in it is proved, `guess` excepted.

@@ -21,28 +21,43 @@ class feasibility_test;
 /// How the prior is searched.
 enum class algorithm {
     contracting, ///< contraction by linear programs, smear bisection, largest box first, witness
-    report_1,    ///< Algorithm 1 of the report: bisection alone, no outlier allowed
-    report_2     ///< Algorithm 2 of the report; its threshold is a budget of outliers, see
-                 ///< `outlier_rule::threshold`
+    /// Algorithm 1 of the report: bisection alone, no outlier allowed; first box in, first out, to
+    /// an accuracy that is a share of the prior, whatever `search` says of these two.
+    report_1,
+    /// Algorithm 2 of the report, likewise; its threshold is a budget of outliers, see
+    /// `outlier_rule::threshold`.
+    report_2
 };
 
 struct identify_options {
     sivid::algorithm algorithm = sivid::algorithm::contracting;
-    inversion_options search{.proof_bytes = std::size_t{1} << 25};
+    inversion_options search{.accuracy_of_hull = true, .proof_bytes = std::size_t{1} << 25};
     feasibility_test_options test;
-    /// Stop when the hulls no longer shrink; the paving stays coarse.
+    /// Stop when the hulls no longer shrink, by `search.hull_gain`, or 2 % where that is 0; the
+    /// paving stays coarse.
     bool only_hulls = false;
-    /// Contract the prior first, unless slower inputs have done so. Where runs over it reach less
-    /// than a quarter of the measurements, by the state equations (`contract_by_relations`), in at
-    /// most 0.08 of the time. Where they reach less than half over what is left, or parameters are
-    /// five or more, by a window of each record that begins with it and grows as the prior shrinks
-    /// (`contract_by_windows`), in at most 0.7 of the time. Where they still reach less than a
-    /// quarter and starts are not known exactly, by windows all along the records, in at most 0.8.
+    // What comes before the search, in the order in which it is tried. Each has the conditions that
+    // stand beside it, and at most the share of the time that is left then; "early" means that
+    // trajectories over what is left of the prior reach less than a quarter of the measurements.
+    // Models with delays have none of the first three.
+
+    /// Fixed shapes in place of constants within a function of one moving quantity: where runs end
+    /// early; 0.9. Where they cut something off, nothing else is tried before the search.
+    bool shapes = true;
+    /// The state equations between samples (`contract_by_relations`) and interval observers, in
+    /// turn: where runs end early; 0.15.
+    bool equations = true;
+    /// Windows of the records (`contract_by_windows`). After equations that cut something off,
+    /// where runs still end early from known starts: one that begins with each record and grows as
+    /// the prior shrinks (0.1), and if it leaves more than half, sixteen along each record, in
+    /// states that the equations know (0.9). After slower inputs in vain: one that grows, where
+    /// runs reach less than half of the measurements or parameters are five or more (0.7). Last,
+    /// where starts are uncertain and runs end early: all along the records (0.8).
     bool windows = true;
-    /// Search with slower inputs first (`with_slower_inputs`, ten samples to a line), in at most
-    /// half of the time (windows of theirs: 0.6), where an input has a thousand samples or more,
-    /// trajectories over the prior reach less than a quarter of the measurements, and with slower
-    /// inputs a run at the fit tells at least a quarter of them to half their bounds.
+    /// A search with slower inputs (`with_slower_inputs`, ten samples to a line): where an input
+    /// has a thousand samples or more, runs end early, and with slower inputs a run at the fit
+    /// tells at least a quarter of the measurements to half their bounds; 0.5 (windows of theirs,
+    /// if `windows` are wanted: 0.6).
     bool slower_inputs = true;
     /// Boxes tested to draw the paving of the prior, when the search ran in products of parameters.
     std::size_t drawn_boxes = 1500;

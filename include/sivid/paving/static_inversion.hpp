@@ -5,6 +5,7 @@
 #include <sivid/number/guard.hpp>
 #include <sivid/number/pack_traits.hpp>
 #include <sivid/paving/search/search_budget.hpp>
+#include <sivid/paving/static/detail/static_findings.hpp>
 #include <sivid/paving/static/detail/static_survey.hpp>
 #include <sivid/paving/static/flat_paving.hpp>
 #include <sivid/paving/static/static_judge.hpp>
@@ -104,9 +105,7 @@ private:
         wait(std::move(first), prior_.size() > 2);
     }
 
-    [[nodiscard]] static int size_class(double volume) {
-        return volume > 0 ? std::ilogb(volume) / 2 : -2000;
-    }
+    static int size_class(double volume) { return volume > 0 ? std::ilogb(volume) / 2 : -2000; }
     /// A block with room for boxes of a volume and of a list of measurements.
     block& block_for(double volume, static_list const& measurements, std::size_t family) {
         auto& list = blocks_[{size_class(volume), family}];
@@ -386,13 +385,13 @@ private:
 /// @throws std::invalid_argument  for a problem that does not fit together (it names what)
 /// @throws unsound_environment    where interval arithmetic would prove nothing (`guard.hpp`)
 /// @guarantee  boxes `inside` are feasible throughout; every feasible parameter of the prior lies
-/// in
-///             a box, and in `hull`
-/// @cost  time and memory linear in the measurements, times the boxes; eight boxes or eight
-///        measurements at a time
+///   in a box, and in `hull`, and violates all that is `forced`
+/// @cost  linear in the measurements, times the boxes; eight of either at a time
 [[nodiscard]] inline flat_paving invert_static(static_problem const& problem,
                                                static_inversion_options options = {}) {
-    return static_inversion<8>(problem, std::move(options))();
+    auto found = static_inversion<8>(problem, options)();
+    add_static_findings(problem, found, options.seconds, options.keep_going);
+    return found;
 }
 
 } // namespace sivid

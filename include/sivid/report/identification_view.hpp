@@ -25,6 +25,8 @@ struct parameter_view {
     range prior{};
     range hull{}; ///< contains every feasible value; empty when there is none
     std::string meaning{};
+    /// At least this share of the prior's range lies between the ends of the hull, and is excluded.
+    double excluded_between = 0;
 };
 
 /// A function of the parameters that the data fix.
@@ -85,6 +87,7 @@ struct identification_view {
     std::vector<combination_view> combinations{};
     range volume_inner{}; ///< share of the prior, as proven intervals; empty: not known
     range volume_outer{};
+    double excluded = 0; ///< at least this share of the prior's volume is excluded
     /// The largest box that is proved to explain the data, in words: "S_v in [0.2, 0.3] m^2, ...".
     std::string inside_box{};
     std::optional<named_witness> witness{};

@@ -27,11 +27,15 @@ namespace sivid::report {
 /// A volume relative to the prior as an interval in percent, outward.
 [[nodiscard]] SIVID_DECL std::string percent_interval(range const& share);
 
-/// Width of the hull over the width of the prior, rounded up; NaN when there is no such number.
+/// What is left of the prior's range, between the ends of the hull, too, as a share of its width;
+/// rounded up; NaN when there is no such number.
 [[nodiscard]] SIVID_DECL double share_of_prior(parameter_view const& p);
 
-/// True when the proof left all of the parameter's prior.
-[[nodiscard]] SIVID_DECL bool keeps_prior(parameter_view const& p);
+/// How much of a parameter's prior is excluded where its hull does not show it: between its ends,
+/// or only together with other parameters. Empty where the hull shows it, "nothing excluded" only
+/// where nothing is.
+[[nodiscard]] SIVID_DECL std::string exclusion_note(identification_view const& v,
+                                                    parameter_view const& p);
 
 /// True when the proof left (nearly) all of the parameter's prior.
 [[nodiscard]] SIVID_DECL bool is_unresolved(parameter_view const& p);

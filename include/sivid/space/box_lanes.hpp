@@ -2,11 +2,13 @@
 #ifndef SIVID_SPACE_BOX_LANES_HPP
 #define SIVID_SPACE_BOX_LANES_HPP
 
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/space/box.hpp>
 
 #include <concepts>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sivid {
@@ -36,11 +38,14 @@ template <interval_scalar I>
 [[nodiscard]] basic_box<I> side_by_side(std::vector<box> const& boxes) {
     using traits = interval_traits<I>;
     if (boxes.empty() || boxes.size() > traits::lanes) {
-        throw std::invalid_argument("side_by_side: one box at least, one for each lane at most");
+        throw std::invalid_argument("side_by_side: one box at least, one for each lane at most" +
+                                    needed_given(traits::lanes, boxes.size()));
     }
     for (auto const& x : boxes) {
         if (x.size() != boxes[0].size())
-            throw std::invalid_argument("side_by_side: boxes of different sizes");
+            throw std::invalid_argument("side_by_side: boxes of different sizes, " +
+                                        std::to_string(boxes[0].size()) + " and " +
+                                        std::to_string(x.size()) + " sides");
     }
     basic_box<I> result(boxes[0].size());
     for (std::size_t i = 0; i < result.size(); ++i) {

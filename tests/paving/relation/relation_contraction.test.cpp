@@ -268,9 +268,12 @@ TEST_CASE("identify begins with it where runs over the prior end early") {
     auto const found = identify(problem, options);
     REQUIRE(found.windows.has_value());
     CHECK(found.windows->left < 0.1);
+    CHECK(found.windows->by_equations < 1);
+    CHECK(found.windows->left <=
+          found.windows->by_equations * found.windows->by_observers * (1 + 1e-9));
     CHECK(contains(found.hull, truth));
     CHECK(subset(found.hull, contract_by_relations(problem)));
-    options.windows = false;
+    options.shapes = options.equations = options.windows = false;
     auto const without = identify(problem, options);
     CHECK_FALSE(without.windows.has_value());
     CHECK(contains(without.hull, truth));

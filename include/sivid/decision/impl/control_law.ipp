@@ -8,6 +8,7 @@
 #include <sivid/decision/requirement/detail/requirement_numbers.hpp>
 #include <sivid/model/graph/graph_range.hpp>
 #include <sivid/number/text/joined.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -110,8 +111,7 @@ private:
             for (auto const& i : items) sides.push_back(side(i));
             return box(std::move(sides));
         };
-        at.states =
-            box_of(about.states, [](auto const& s) { return traits::bounds(-s.limit, s.limit); });
+        at.states = box_of(about.states, [](auto const& s) { return s.limit.range(); });
         at.constants = box_of(about.constants, [](auto const& c) { return c.nominal.enclosure; });
         at.inputs = box_of(about.inputs, [](auto const&) { return traits::bounds(-1, 1); });
         graph_range range(g(), {x});
@@ -130,7 +130,8 @@ private:
 
 SIVID_DECL void command_by(std::string_view text, closed_loop& loop, double end) {
     if (!(end > 0) || !std::isfinite(end))
-        throw std::invalid_argument("command_by: the motion needs a duration above 0");
+        throw std::invalid_argument("command_by: the motion needs a duration above 0, not " +
+                                    nearest_text(end));
     decision_detail::control_law_parser(text, loop, end).read();
 }
 

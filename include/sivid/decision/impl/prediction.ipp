@@ -173,11 +173,7 @@ private:
         }
         for (std::size_t y = 0; y < count; ++y) {
             double const width = high[y] - low[y];
-<<<<<<< HEAD
-            double const tiny = 1e-6 * std::max(std::abs(low[y]), std::abs(high[y]));
-=======
             double const tiny = 1e-6 * size[y % m];
->>>>>>> w-strength
             double const attained = std::max(inner_high[y] - inner_low[y], 0.0) + tiny;
             double const share = !std::isfinite(width) ? infinity
                                  : width > tiny        ? (width - tiny) / attained - 1

@@ -6,6 +6,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/design/detail/pair_search.hpp>
+#include <sivid/number/text/nearest_text.hpp>
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -33,14 +35,18 @@ SIVID_DECL void planned_measurements::require_valid(prediction_problem const& p)
         throw std::invalid_argument("planned measurements: " + what);
     };
     if (errors.size() != p.model.about.channels.size())
-        fail("one error bound per channel is needed");
+        fail("one error bound per channel is needed" +
+             needed_given(p.model.about.channels.size(), errors.size()));
     for (double const e : errors) {
-        if (!(e >= 0) || !std::isfinite(e)) fail("error bounds must be finite, and 0 or more");
+        if (!(e >= 0) || !std::isfinite(e))
+            fail("error bounds must be finite, and 0 or more, not " + nearest_text(e));
     }
     if (std::none_of(errors.begin(), errors.end(), [](double e) { return e > 0; }))
         fail("no channel is measured");
     for (double const t : times) {
-        if (!(t >= 0 && t <= p.end)) fail("times must lie within the experiment");
+        if (!(t >= 0 && t <= p.end))
+            fail("times must lie within the experiment, from 0 to " + nearest_text(p.end) +
+                 ", and one is " + nearest_text(t));
     }
     if (times.empty()) fail("there is no time to measure at");
 }

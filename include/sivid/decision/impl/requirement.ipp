@@ -6,6 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/requirement/detail/requirement_parser.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,8 @@ SIVID_DECL requirement_error::requirement_error(std::string_view what, std::stri
 
 SIVID_DECL requirement parse_requirement(std::string_view text, recorded_model& model, double end) {
     if (!(end > 0) || !std::isfinite(end))
-        throw std::invalid_argument("parse_requirement: the motion needs a duration above 0");
+        throw std::invalid_argument("parse_requirement: the motion needs a duration above 0, not " +
+                                    nearest_text(end));
     return decision_detail::requirement_parser(text, model, end).read();
 }
 

@@ -17,6 +17,7 @@
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/detail/opening_words.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
+#include <sivid/diagnosis/claim/detail/shared_bounds.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/gap/detail/confined_gap.hpp>
 #include <sivid/diagnosis/gap/detail/gap_proof.hpp>
@@ -69,6 +70,8 @@ public:
             if (!run_.candidates.empty() && !effort_.stopped()) find_causes(tried);
         }
         discharge_sensors();
+        share_bounds(run_);
+        announce();
         answer_hulls(run_, effort_, options_)(); // last: they take what time there is
         settle_claims(run_);
         state_constants();
@@ -137,11 +140,9 @@ private:
         return result;
     }
     void announce() {
-        if (!options_.first_sentence) return;
+        if (!options_.first_sentence || run_.candidates.empty()) return;
         auto text = opening_words(run_.result, run_.base, run_.candidates.front().fit);
-        if (text == said_) return;
-        said_ = std::move(text);
-        options_.first_sentence(said_);
+        if (text != said_) options_.first_sentence(said_ = std::move(text));
     }
 
     /// Which effects, and what of that can be proved: all candidates before anything that only

@@ -8,6 +8,7 @@
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
 #include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -120,7 +121,9 @@ private:
     /// The last set that is kept, at t or before.
     [[nodiscard]] set_type const& kept_before(double t) const {
         if (!(t >= from_ && t <= last_.time))
-            throw std::out_of_range("enclosed_motion: time outside the proved span");
+            throw std::out_of_range("enclosed_motion: time " + nearest_text(t) +
+                                    " outside the proved span from " + nearest_text(from_) +
+                                    " to " + nearest_text(last_.time));
         if (t == last_.time) return last_;
         auto const next =
             std::upper_bound(spans_.begin(), spans_.end(), t,
@@ -153,7 +156,9 @@ SIVID_DECL enclosed_motion enclose(std::shared_ptr<flow const> f, box const& ini
     if (set == carried_set::doubleton) {
         return {std::move(f), initial, parameters, from, to, options};
     }
-    if (!(from <= to)) throw std::invalid_argument("enclose: the end lies before the begin");
+    if (!(from <= to))
+        throw std::invalid_argument("enclose: the end, " + nearest_text(to) +
+                                    ", lies before the begin, " + nearest_text(from));
     if (options.method) {
         return taylor_motion<parametric_runge_kutta<>>::run(std::move(f), initial, parameters, from,
                                                             to, options);

@@ -8,6 +8,7 @@
 #include <sivid/enclosure/advice/detail/failure_advice.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/enclosure/tube.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -34,7 +35,8 @@ SIVID_DECL box enclosed_motion::observe_at(double t) const {
 }
 SIVID_DECL box enclosed_motion::over(double from, double to) const {
     if (!(from <= to))
-        throw std::invalid_argument("enclosed_motion: a span must not end before it begins");
+        throw std::invalid_argument("enclosed_motion: a span must not end before it begins: from " +
+                                    nearest_text(from) + " to " + nearest_text(to));
     if (tube_) return tube_->over(from, to);
     if (from == to) return at(from);
     auto result = hull(at(from), at(to));

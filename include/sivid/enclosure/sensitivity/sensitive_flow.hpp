@@ -7,6 +7,7 @@
 #include <sivid/enclosure/set/detail/framed_radii.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -332,7 +333,8 @@ sensitivities_at(flow const& f, enclosure_options const& options, box const& ini
     std::vector<measured_sensitivities<Model>> result;
     for (double const t : times) {
         if (t < run.time())
-            throw std::invalid_argument("sensitivities_at: times must increase from the begin");
+            throw std::invalid_argument("sensitivities_at: times must increase from the begin; " +
+                                        nearest_text(t) + " follows " + nearest_text(run.time()));
         while (run.time() < t) {
             if (run.step(t)) continue;
             if (failure != nullptr) *failure = run.states().failure();

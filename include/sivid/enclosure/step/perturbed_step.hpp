@@ -7,6 +7,7 @@
 #include <sivid/model/graph/tape.hpp>
 #include <sivid/model/series/series.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
+#include <sivid/number/text/needed_given.hpp>
 
 #include <cstddef>
 #include <limits>
@@ -149,7 +150,8 @@ public:
     /// @throws std::invalid_argument for a wrong number of bounds, or one that is negative or NaN
     void set_rate_bound(std::vector<double> w) {
         if (!w.empty() && w.size() != flow_->states()) {
-            throw std::invalid_argument("perturbed_step: needs one rate bound per state");
+            throw std::invalid_argument("perturbed_step: needs one rate bound per state" +
+                                        needed_given(flow_->states(), w.size()));
         }
         for (double const x : w) {
             if (!(x >= 0)) throw std::invalid_argument("perturbed_step: a negative rate bound");

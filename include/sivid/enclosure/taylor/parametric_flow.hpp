@@ -2,6 +2,7 @@
 #ifndef SIVID_ENCLOSURE_TAYLOR_PARAMETRIC_FLOW_HPP
 #define SIVID_ENCLOSURE_TAYLOR_PARAMETRIC_FLOW_HPP
 
+#include <sivid/enclosure/detail/required_boxes.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_accept.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_attempt.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_barrier.hpp>
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,20 +25,16 @@ template <class Model, class Centre>
 void parametric_flow<Model, Centre>::begin(std::size_t lane, double time, box const& initial,
                                            box const& parameters) {
     require_sound_environment();
-    if (lane >= width) throw std::out_of_range("parametric_flow: no such lane");
-    if (initial.size() != flow_->states() || parameters.size() != flow_->parameters()) {
-        throw std::invalid_argument("parametric_flow: the boxes do not have the model's sizes");
-    }
-    for (auto const* x : {&initial, &parameters}) {
-        for (auto const& side : *x) {
-            if (!std::isfinite(mag(side))) {
-                throw std::invalid_argument("parametric_flow: empty or unbounded box");
-            }
-        }
-    }
+    if (lane >= width)
+        throw std::out_of_range("parametric_flow: no lane " + std::to_string(lane) + " of " +
+                                std::to_string(width) + ", counted from 0");
+    enclosure_detail::require_boxes("parametric_flow", *flow_, initial, parameters);
     normalised_unknowns unknowns(initial, parameters);
     if (unknowns.variables > (shape_->degree == 0 ? 0 : shape_->variables))
-        throw std::invalid_argument("parametric_flow: too many unknowns");
+        throw std::invalid_argument(
+            "parametric_flow: " + std::to_string(unknowns.variables) +
+            " sides of these boxes have a width, and its polynomials have " +
+            std::to_string(shape_->degree == 0 ? 0 : shape_->variables) + " variables");
     end(lane);
     // Whatever the lanes held must not show: one that stands idle may decide which of several
     // bounds all lanes get.

@@ -4,6 +4,8 @@
 
 #include <sivid/io/identification_json.hpp>
 
+#include <sivid/paving/excluded_between.hpp>
+
 namespace sivid {
 
 namespace io_detail {
@@ -54,6 +56,8 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         json.key("windows").begin_object(one_line).members("carried", w.windows);
         json.members("longest", w.longest, "seconds", w.seconds, "left", w.left);
         if (w.input_period > 0) json.members("input_period", w.input_period);
+        if (w.by_equations < 1) json.members("by_equations", w.by_equations);
+        if (w.by_observers < 1) json.members("by_observers", w.by_observers);
         json.end_object();
     }
     write_reach(json, found.reach);
@@ -84,7 +88,9 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
     json.key("parameters").begin_object();
     for (std::size_t j = 0; j < names.size(); ++j) {
         auto const& constant = about.constants[index_of(about.constants, names[j], "constant")];
-        json.key(names[j]).object("hull", found.hull[j], "unit", constant.unit);
+        // Between the ends of the hull: at least this share of the prior's range.
+        json.key(names[j]).object("hull", found.hull[j], "unit", constant.unit, "excluded_between",
+                                  excluded_between(found.paving, found.hull, j));
     }
     json.end_object().list("combinations", found.combinations, [&](combination_hull const& c) {
         json.object("formula", c.what.formula, "hull", c.hull, "unit", c.what.unit);

@@ -6,6 +6,7 @@
 
 #include <sivid/measurement/detail/widened_signal.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -264,7 +265,8 @@ struct followed_input {
 SIVID_DECL limited_signal rate_limited(sampled_signal const& u, double begin, double end,
                                        interval const& limit) {
     if (!(limit.lower() > 0))
-        throw std::invalid_argument("rate_limited: the limit of a rate is above 0");
+        throw std::invalid_argument("rate_limited: the limit of a rate is above 0, not from " +
+                                    nearest_text(limit.lower()) + " on");
     measurement_detail::followed_input const y(u, begin, end, limit);
     auto const& knots = y.limiter.knots();
     limited_signal result;
@@ -283,7 +285,8 @@ SIVID_DECL limited_signal rate_limited(sampled_signal const& u, double begin, do
 SIVID_DECL limited_line rate_limited_line(sampled_signal const& u, double begin, double end,
                                           interval const& limit) {
     if (!(limit.lower() > 0))
-        throw std::invalid_argument("rate_limited: the limit of a rate is above 0");
+        throw std::invalid_argument("rate_limited: the limit of a rate is above 0, not from " +
+                                    nearest_text(limit.lower()) + " on");
     measurement_detail::followed_input const y(u, begin, end, limit);
     auto const& knots = y.limiter.knots();
     std::vector<double> times, slopes;

@@ -6,6 +6,7 @@
 
 #include <sivid/measurement/detail/widened_signal.hpp>
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -66,7 +67,8 @@ private:
 SIVID_DECL played_signal played(sampled_signal const& u, double begin, double end,
                                 interval const& half_width) {
     if (!(half_width.lower() >= 0))
-        throw std::invalid_argument("played: the half-width of a play is 0 or more");
+        throw std::invalid_argument("played: the half-width of a play is 0 or more, not from " +
+                                    nearest_text(half_width.lower()) + " on");
     bool const holds = u.kind() == interpolation::hold;
     double const middle = mid(half_width);
     double const spread = mag(interval_traits<interval>::sub(half_width, interval(middle)));

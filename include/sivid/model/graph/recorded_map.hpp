@@ -6,6 +6,7 @@
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/graph/program.hpp>
 #include <sivid/model/graph/rewrite.hpp>
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>
@@ -75,7 +76,8 @@ public:
 private:
     void require(std::size_t given) const {
         if (given != arguments_)
-            throw std::invalid_argument("recorded_map: a wrong number of arguments");
+            throw std::invalid_argument("recorded_map: a wrong number of arguments" +
+                                        needed_given(arguments_, given));
     }
 
     std::size_t arguments_;

@@ -12,6 +12,7 @@
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/rounding.hpp>
 #include <sivid/number/text/nearest_text.hpp>
+#include <sivid/number/text/needed_given.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +70,8 @@ SIVID_DECL std::vector<signal> closed_model::inputs(std::vector<signal> const& o
     std::vector<signal> result;
     for (auto const i : kept_inputs) {
         if (i >= open.size())
-            throw std::invalid_argument("closed_model: one signal per input is needed");
+            throw std::invalid_argument("closed_model: one signal per input is needed" +
+                                        needed_given(i + 1, open.size()));
         result.push_back(open[i]);
     }
     result.insert(result.end(), own_inputs.begin(), own_inputs.end());
@@ -81,7 +83,8 @@ SIVID_DECL box closed_model::initial(box const& open, std::vector<signal> const&
     using traits = interval_traits<interval>;
     auto const states = model.about.states.size();
     if (open.size() + own_states != states)
-        throw std::invalid_argument("closed_model: the start needs one side per state");
+        throw std::invalid_argument("closed_model: the start needs one side per state" +
+                                    needed_given(states - own_states, open.size()));
     box result(states);
     for (std::size_t i = 0; i < states; ++i)
         result[i] = i < open.size() ? open[i] : traits::point(0.0);
@@ -173,7 +176,8 @@ SIVID_DECL expression closed_loop::integral(expression const& x, std::string con
 
 SIVID_DECL expression closed_loop::during(double from, double to) {
     if (!(from >= 0) || !(from < to) || !std::isfinite(to))
-        throw std::invalid_argument("control law: during needs 0 <= from < to");
+        throw std::invalid_argument("control law: during needs 0 <= from < to, not from " +
+                                    nearest_text(from) + " to " + nearest_text(to));
     std::vector<double> times, values;
     if (from > 0) {
         times.push_back(0);

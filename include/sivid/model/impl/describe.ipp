@@ -34,10 +34,16 @@ namespace model_detail {
 
 [[nodiscard]] SIVID_DECL std::string bracketed(std::string const& unit) { return "[" + unit + "]"; }
 
+[[nodiscard]] inline std::string own_range(std::string const& name, state_range const& x) {
+    return x.lower == -x.upper
+               ? "|" + name + "| <= " + nearest_text(x.upper)
+               : nearest_text(x.lower) + " <= " + name + " <= " + nearest_text(x.upper);
+}
+
 [[nodiscard]] SIVID_DECL std::string describe_names(model_description const& about) {
     std::vector<std::vector<std::string>> states, inputs, channels;
     for (auto const& s : about.states) {
-        states.push_back({s.name, bracketed(s.unit), "|" + s.name + "| <= " + nearest_text(s.limit),
+        states.push_back({s.name, bracketed(s.unit), own_range(s.name, s.limit),
                           s.equation.empty() ? "" : "equation '" + s.equation + "'"});
     }
     for (auto const& i : about.inputs) inputs.push_back({i.name, bracketed(i.unit)});

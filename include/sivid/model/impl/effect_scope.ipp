@@ -159,7 +159,7 @@ SIVID_DECL void effect_scope::lag_channel(std::string const& name, std::size_t k
 }
 
 SIVID_DECL expression effect_scope::add_state(std::string const& name, std::string const& unit,
-                                              double limit, expression const& at_begin) {
+                                              state_range limit, expression const& at_begin) {
     auto const k = model_->about.states.size();
     for (auto const& s : model_->about.states)
         if (s.name == name)

@@ -43,6 +43,11 @@ SIVID_DECL model_description model_detail::described(std::string_view name,
                                     "' is no unit of time: " + fault +
                                     "; write \"s\", \"ms\" or \"h\", for instance");
     for (auto const& s : states) {
+        if (!(s.limit.lower <= s.limit.upper))
+            throw std::invalid_argument("model '" + about.name + "': the range of the state '" +
+                                        std::string(s.name) + "', from " +
+                                        nearest_text(s.limit.lower) + " to " +
+                                        nearest_text(s.limit.upper) + ", is empty");
         about.states.push_back(
             {std::string(s.name), std::string(s.unit), s.limit, std::string(s.equation)});
     }

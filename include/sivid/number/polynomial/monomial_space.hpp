@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -90,7 +91,9 @@ public:
 private:
     monomial_space(std::size_t variables, std::size_t degree)
         : variables_(variables), degree_(degree) {
-        if (degree > 255) throw std::invalid_argument("monomial_space: the degree exceeds 255");
+        if (degree > 255)
+            throw std::invalid_argument("monomial_space: the degree " + std::to_string(degree) +
+                                        " exceeds 255");
         double count = 1, products = 1; // up to rounding
         for (std::size_t k = 1; k <= degree; ++k) {
             count *= static_cast<double>(variables + k) / static_cast<double>(k);
@@ -98,7 +101,9 @@ private:
         }
         if (!(count <= 1.001 * static_cast<double>(most_terms)) ||
             (degree > 2 && !(products <= 1.001 * static_cast<double>(most_products)))) {
-            throw std::invalid_argument("monomial_space: too many monomials; take a lower degree");
+            throw std::invalid_argument("monomial_space: too many monomials of " +
+                                        std::to_string(variables) + " variables to degree " +
+                                        std::to_string(degree) + "; take a lower degree");
         }
         for (std::size_t n = 0; n <= variables + 1; ++n) {
             std::vector<std::size_t> row;

@@ -50,7 +50,7 @@ struct window_options {
     bool keep_responses = false; ///< of the windows of the last program
 };
 
-/// What windows, or slower inputs, leave of the prior.
+/// What windows, slower inputs, equations or observers leave of the prior.
 struct window_contraction {
     box rest;                ///< contains every feasible parameter; empty: proved, there is none
     std::vector<box> starts; ///< of each experiment, contain every start that explains it
@@ -61,6 +61,9 @@ struct window_contraction {
     /// What contracted saw the inputs as lines with knots so far apart (`with_slower_inputs`), and
     /// searched the prior as well; 0: it saw them as they are. [s]
     double input_period = 0;
+    /// The shares of the volume that the state equations between samples, and interval observers,
+    /// have each left of what they were given; 1: nothing was cut off.
+    double by_equations = 1, by_observers = 1;
     std::size_t integrations = 0; ///< beside those of windows
     response_list responses{};    ///< where they are kept
     std::vector<box> from{};      ///< the states in which their windows begin
@@ -77,6 +80,8 @@ struct window_contraction {
     then.seconds += first.seconds;
     then.integrations += first.integrations;
     then.input_period = std::max(first.input_period, then.input_period);
+    then.by_equations *= first.by_equations;
+    then.by_observers *= first.by_observers;
     return then;
 }
 

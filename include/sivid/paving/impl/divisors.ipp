@@ -112,7 +112,7 @@ private:
     leaf_ranges result{traits::empty(), box(about.states.size()), problem.prior,
                        empty_box(about.inputs.size())};
     for (std::size_t i = 0; i < about.states.size(); ++i) {
-        result.states[i] = traits::bounds(-about.states[i].limit, about.states[i].limit);
+        result.states[i] = about.states[i].limit.range();
     }
     for (auto const& e : problem.experiments) {
         result.time = hull(result.time, traits::bounds(e.begin, e.end()));

@@ -8,6 +8,7 @@
 #include <sivid/model/structure/find_combinations.hpp>
 #include <sivid/model/structure/homogeneity.hpp>
 #include <sivid/model/structure/symmetry.hpp>
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
 #include <sivid/paving/identifiability/detail/sensitivity_spectrum.hpp>
 #include <sivid/space/exact/detail/certified_rank.hpp>
@@ -136,7 +137,8 @@ SIVID_DECL identifiability identifiability_of(identification_problem const& prob
                                               identifiability_options const& options) {
     problem.require_data();
     if (at.size() != problem.prior.size() || is_empty(at))
-        throw std::invalid_argument("identifiability_of: one side per parameter, none empty");
+        throw std::invalid_argument("identifiability_of: one side per parameter, none empty" +
+                                    needed_given(problem.prior.size(), at.size()));
     sensitivity_runs const runs(problem, unknowns_of(problem, options.starts), options.enclosure);
     identifiability result;
     result.unknowns = runs.unknowns();
@@ -151,7 +153,8 @@ SIVID_DECL identifiability identifiability_of(identification_problem const& prob
         }
     }
     if (result.starts.size() != problem.experiments.size())
-        throw std::invalid_argument("identifiability_of: one box of starts per experiment");
+        throw std::invalid_argument("identifiability_of: one box of starts per experiment" +
+                                    needed_given(problem.experiments.size(), result.starts.size()));
     auto const there = runs(at, result.starts);
     result.outputs = there.values.rows();
     result.missing = there.missing;

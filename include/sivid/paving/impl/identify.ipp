@@ -127,12 +127,7 @@ SIVID_DECL identification identify(identification_problem const& problem,
                                     "other data, another model or prior, or other budgets of "
                                     "outliers; resume with what it was begun with, or begin anew");
     options.test = paving_detail::as_searched(std::move(options.test), options.algorithm);
-    if (options.algorithm != algorithm::contracting) {
-        options.search.order = search_order::first_in;
-    } else {
-        options.search.accuracy_of_hull = true;
-        if (options.only_hulls) options.search.hull_gain = 0.02;
-    }
+    options.search = paving_detail::as_searched(options.search, options);
     auto const structure = dependence_of(working);
     paving_detail::posed_search searched(working, structure, options);
     auto const& map = searched.map();
@@ -168,9 +163,13 @@ SIVID_DECL identification identify(identification_problem const& problem,
     auto& searching = searched.test();
     if (windows) {
         result.windows =
-            window_effort{windows->windows, windows->longest, windows->seconds,
+            window_effort{windows->windows,
+                          windows->longest,
+                          windows->seconds,
                           std::min(1.0, relative_volume(windows->rest, posed.prior).upper()),
-                          windows->input_period};
+                          windows->input_period,
+                          windows->by_equations,
+                          windows->by_observers};
     }
     if (options.resume)
         paving_detail::require_true_state(*options.resume, posed, options.test, result, fitted,

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_RELATION_CHANNEL_TUBE_HPP
 
 #include <sivid/number/interval_traits.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -50,7 +51,9 @@ public:
         channel_tube result;
         for (std::size_t k = 0; k + 1 < times.size(); ++k) {
             if (!(times[k] < times[k + 1])) {
-                throw std::invalid_argument("channel_tube: times must increase strictly");
+                throw std::invalid_argument("channel_tube: times must increase strictly; " +
+                                            nearest_text(times[k + 1]) + " follows " +
+                                            nearest_text(times[k]));
             }
             if (!(variations[k] >= 0)) {
                 throw std::invalid_argument("channel_tube: the rate variation must be stated");
@@ -103,7 +106,8 @@ public:
     /// @given  `covers(from, to)` (checked)
     [[nodiscard]] interval over(double from, double to) const {
         if (!(from <= to) || !covers(from, to)) {
-            throw std::invalid_argument("channel_tube: no samples there");
+            throw std::invalid_argument("channel_tube: no samples from " + nearest_text(from) +
+                                        " to " + nearest_text(to));
         }
         auto k = gap_at(from);
         if (from == to && times_[k] == from) return bounds_[k];
@@ -123,7 +127,8 @@ public:
                                                           double end) const {
         auto const k = gap_at(from);
         if (!(from < to) || !covers(from, to) || times_[k + 1] < to) {
-            throw std::invalid_argument("channel_tube: not within one gap");
+            throw std::invalid_argument("channel_tube: from " + nearest_text(from) + " to " +
+                                        nearest_text(to) + " is not within one gap");
         }
         bool undefined = false;
         auto const s0 = place(k, from);

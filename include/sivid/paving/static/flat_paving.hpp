@@ -2,7 +2,9 @@
 #ifndef SIVID_PAVING_STATIC_FLAT_PAVING_HPP
 #define SIVID_PAVING_STATIC_FLAT_PAVING_HPP
 
+#include <sivid/model/prior_end.hpp>
 #include <sivid/paving/subpaving.hpp>
+#include <sivid/paving/verdict.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -118,6 +120,20 @@ private:
     std::vector<box_chunk> chunks_;
 };
 
+/// An end of the prior that the feasible set reaches, or may: what lies beyond was not looked at.
+struct reached_end {
+    std::size_t side = 0;
+    prior_end end = prior_end::none;
+    bool proved = false; ///< a feasible point sits there; else only what is open does
+};
+
+/// A measurement of which the formula may have no value somewhere in what is open: no such box can
+/// be proved feasible, however small it is.
+struct undefined_output {
+    std::size_t measurement = 0; ///< of the problem's record
+    box where;                   ///< one of the open boxes
+};
+
 /// What a set inversion found, as flat lists. What neither `inside` nor `open` covers of the prior
 /// is proved outside.
 struct flat_paving {
@@ -128,14 +144,33 @@ struct flat_paving {
     flat_boxes inside; ///< proved feasible throughout
     flat_boxes open;   ///< undecided, or still waiting when the work ended
     stop_reason reason = stop_reason::decided;
-    std::size_t tested = 0; ///< boxes tested
-    std::size_t asked = 0;  ///< measurements looked at, summed over them
+    /// Measurements of the problem's record that every feasible parameter violates, where some
+    /// parameter may be feasible and outliers are allowed.
+    std::vector<std::size_t> forced{};
+    std::vector<undefined_output> undefined{}; ///< of each channel that has one, the first
+    std::size_t tested = 0;                    ///< boxes tested
+    std::size_t asked = 0;                     ///< measurements looked at, summed over them
     double seconds = 0;
 
     /// What contains all feasible parameters of the prior; empty when there are none.
     [[nodiscard]] box hull() const {
         if (inside.size() == 0) return open.hull();
         return open.size() == 0 ? inside.hull() : sivid::hull(inside.hull(), open.hull());
+    }
+    /// The ends of the prior that it reaches, side by side.
+    [[nodiscard]] std::vector<reached_end> ends() const {
+        std::vector<reached_end> result;
+        auto const all = hull(), feasible = inside.hull();
+        for (std::size_t j = 0; j < prior.size(); ++j) {
+            double const low = prior[j].lower(), high = prior[j].upper();
+            if (!(low < high) || is_empty(all)) continue;
+            bool const some = inside.size() > 0;
+            if (all[j].lower() <= low)
+                result.push_back({j, prior_end::lower, some && feasible[j].lower() <= low});
+            if (all[j].upper() >= high)
+                result.push_back({j, prior_end::upper, some && feasible[j].upper() >= high});
+        }
+        return result;
     }
     /// Volume that is neither proved inside nor outside, relative to the prior.
     [[nodiscard]] interval uncertain_volume() const { return open.relative_volume(prior); }
@@ -152,6 +187,12 @@ struct flat_paving {
         return result;
     }
 };
+
+/// What a set inversion proves of the whole prior.
+[[nodiscard]] inline verdict proved_verdict(flat_paving const& found) {
+    if (found.inside.size() > 0) return verdict::consistent;
+    return found.open.size() > 0 ? verdict::undecided : verdict::inconsistent;
+}
 
 } // namespace sivid
 

@@ -7,6 +7,7 @@
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/text/joined.hpp>
+#include <sivid/paving/excluded_between.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/report/detail/reach_words.hpp>
 #include <sivid/report/draw/detail/paving_projections.hpp>
@@ -89,6 +90,20 @@ private:
         return assumption;
     }
 
+    /// What contracted the prior without runs, and how much each cut off.
+    [[nodiscard]] static std::string without_runs(window_effort const& w, bool beside) {
+        std::vector<std::string> parts;
+        auto const add = [&](std::string const& who, double left) {
+            if (left < 1)
+                parts.push_back(who + " (to " + at_most_percent(left) +
+                                " of what they were given)");
+        };
+        add("the state equations between samples", w.by_equations);
+        add("interval observers", w.by_observers);
+        if (parts.empty()) return beside ? "" : "shapes in place of constants";
+        return (beside ? " with " : "") + enumeration(parts);
+    }
+
     void add_result() {
         view_.dataset = options_.dataset;
         view_.model = about().name;
@@ -98,6 +113,7 @@ private:
                                                                   : outcome::undecided;
         view_.volume_inner = shown_share(found_.paving.inner_volume());
         view_.volume_outer = shown_share(found_.paving.outer_volume());
+        view_.excluded = std::max(0.0, 1 - found_.paving.outer_volume().upper());
         for (std::string const& a : found_.assumptions) view_.assumptions.push_back(sentence_of(a));
         std::size_t budget = 0;
         for (experiment const& e : problem_.experiments) budget += e.outliers;
@@ -138,7 +154,8 @@ private:
                     ? "no window of the records can be carried from starts so wide: state them "
                       "more narrowly, or give samples nearer to them"
                     : (runs ? what + (what.empty() || lines.empty() ? "" : ", and ") + lines + ","
-                            : "the state equations between samples") +
+                            : "") +
+                          without_runs(w, runs) +
                           " contracted the prior before the search: they leave " +
                           at_most_percent(w.left) + " of its volume (" + duration_text(w.seconds) +
                           ")";
@@ -154,7 +171,8 @@ private:
         for (std::size_t j = 0; j < names().size(); ++j) {
             auto const meaning = options_.meanings.find(names()[j]);
             view_.parameters.push_back({names()[j], unit_of(j), problem_.prior[j], found_.hull[j],
-                                        meaning == options_.meanings.end() ? "" : meaning->second});
+                                        meaning == options_.meanings.end() ? "" : meaning->second,
+                                        excluded_between(found_.paving, found_.hull, j)});
         }
     }
 

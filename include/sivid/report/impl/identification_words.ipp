@@ -33,11 +33,19 @@ SIVID_DECL std::string percent_interval(range const& share) {
 SIVID_DECL double share_of_prior(parameter_view const& p) {
     if (!is_finite(p.prior) || is_empty(p.hull) || !(p.prior.hi > p.prior.lo)) return std::nan("");
     double const share = (p.hull.hi - p.hull.lo) / (p.prior.hi - p.prior.lo);
-    return std::min(1.0, share * (1 + 1e-15));
+    return std::clamp(share * (1 + 1e-15) - p.excluded_between, 0.0, 1.0);
 }
 
-SIVID_DECL bool keeps_prior(parameter_view const& p) {
-    return p.hull.lo <= p.prior.lo && p.hull.hi >= p.prior.hi;
+SIVID_DECL std::string exclusion_note(identification_view const& v, parameter_view const& p) {
+    if (is_empty(p.hull)) return {};
+    if (p.excluded_between > 0)
+        return "at least " + at_least_percent(p.excluded_between) +
+               " of the prior's range is excluded in between";
+    if (p.hull.lo > p.prior.lo || p.hull.hi < p.prior.hi) return {};
+    if (v.excluded > 0)
+        return "no value excluded by itself; with the other parameters at least " +
+               at_least_percent(v.excluded) + " of the prior's volume";
+    return "nothing excluded";
 }
 
 SIVID_DECL bool is_unresolved(parameter_view const& p) { return share_of_prior(p) > 0.99; }
@@ -131,6 +139,7 @@ SIVID_DECL std::vector<std::string> plain_statements(identification_view const& 
                 p.name + " in " + outward_text_within(p.hull, p.prior) + unit_suffix(p.unit);
             std::string& list = is_unresolved(p) ? unresolved : hulls;
             list += (list.empty() ? "" : ", ") + (is_unresolved(p) ? p.name : text);
+            if (p.excluded_between > 0) list += " (" + exclusion_note(v, p) + ")";
         }
         if (!hulls.empty()) {
             out.push_back("Every parameter vector that explains the data has " + hulls + ".");
@@ -138,7 +147,7 @@ SIVID_DECL std::vector<std::string> plain_statements(identification_view const& 
         for (combination_view const& c : v.combinations) {
             bool const all =
                 !is_empty(c.prior) && c.hull.lo <= c.prior.lo && c.hull.hi >= c.prior.hi;
-            out.push_back((all ? "Nothing could be excluded for "
+            out.push_back((all ? "Both ends of its range over the prior are left of "
                                : "Every parameter vector that explains the data has ") +
                           formula_text(c.formula) + " in " + outward_text(c.hull) +
                           unit_suffix(c.unit) + "." + (c.note.empty() ? "" : " " + c.note));

@@ -2,6 +2,8 @@
 #ifndef SIVID_SPACE_EXACT_INTEGER_SPAN_HPP
 #define SIVID_SPACE_EXACT_INTEGER_SPAN_HPP
 
+#include <sivid/number/text/needed_given.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -38,7 +40,8 @@ public:
     /// Whether a row is a sum of those taken in, with rational factors.
     [[nodiscard]] bool contains(std::vector<int> const& row) const {
         if (row.size() != columns_)
-            throw std::invalid_argument("integer_span: a row of another length");
+            throw std::invalid_argument("integer_span: a row of another length" +
+                                        needed_given(columns_, row.size()));
         if (std::all_of(row.begin(), row.end(), [](int v) { return v == 0; })) return true;
         double known = 0; // bits of the primes by which every minor can be divided
         double const enough = bits_ + bits_of(row) + 1;

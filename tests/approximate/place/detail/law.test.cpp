@@ -38,6 +38,15 @@ TEST_CASE("the library speaks of the model's own quantities") {
     CHECK_THAT(named("u*v")[0], WithinAbs(0.5, 1e-15));
     CHECK_THAT(named("cos(psi), sin(psi)")[1], WithinAbs(std::cos(0.1), 1e-15));
     CHECK_THAT(named("speed*u")[1], WithinAbs(4, 1e-12));
+    CHECK_THAT(named("u^2*v")[0], WithinAbs(0.5, 1e-15));
+    CHECK_THAT(named("u*v*r")[0], WithinAbs(-0.1, 1e-15));
+    CHECK_THAT(named("delta*u^2")[1], WithinAbs(-1.2, 1e-12));
+    CHECK_THAT(named("W*delta*u")[0], WithinAbs(8, 1e-12));
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+        auto const same = std::count_if(laws.begin(), laws.end(),
+                                        [&](law const& l) { return l.text == laws[k].text; });
+        CHECK(same == 1); // each shape once
+    }
     CHECK_THAT(named("exp(-t/0.5)")[1], WithinAbs(std::exp(-2.0), 1e-12)); // half a step
     auto const inputs = library.for_input(1);
     CHECK(inputs.front().text == "1");

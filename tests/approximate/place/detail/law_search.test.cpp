@@ -22,6 +22,10 @@ TEST_CASE("the law behind a missing rate comes first") {
          [](double, support::motion const& x, auto const&, auto const&, support::motion& rate) {
              rate[2] -= 1.5 * std::abs(x[2]) * x[2];
          }},
+        {2, "u^2*r",
+         [](double, support::motion const& x, auto const&, auto const&, support::motion& rate) {
+             rate[2] -= 0.6 * x[0] * x[0] * x[2];
+         }},
         {2, "W^2",
          [](double, auto const&, support::controls const& u, auto const&, support::motion& rate) {
              rate[2] += 2e-5 * u[0] * u[0];

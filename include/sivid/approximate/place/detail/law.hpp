@@ -29,6 +29,9 @@ struct law {
     std::vector<std::vector<std::vector<double>>> functions;
     std::string formula{}; ///< as `missing_term` reads it; empty when it does not
     double frequency = 0;  ///< of a swing [rad/s]
+    /// What it costs to choose it, as `ranked_law::score` counts: where many of a kind are tried
+    /// one of them fits by chance.
+    double cost = 0;
 
     /// The largest size of a function along the motions.
     [[nodiscard]] double reach() const {
@@ -110,6 +113,7 @@ public:
             with_gain(name + "^2", u_[i].square(), laws, false);
         }
         geometric(laws);
+        third_degree(laws);
         return laws;
     }
     /// For what is wrong with an input, in the unit of the input.
@@ -228,6 +232,32 @@ private:
             hinges(gain, g, j, laws);
         }
         if (alone) transients("", g, laws);
+    }
+    /// Products of three inputs and states that the others have not: "x^2*y", "u*x*y", "x*y*z".
+    void third_degree(std::vector<law>& laws) const {
+        constexpr std::size_t most = 16; // factors: 816 products, a tenth of a second
+        std::vector<std::pair<std::string, array const*>> factors;
+        for (std::size_t j = 0; j < u_.size(); ++j)
+            factors.emplace_back(about_->inputs[j].name, &u_[j]);
+        for (auto const i : roles_.moving) factors.emplace_back(about_->states[i].name, &x_[i]);
+        auto const n = factors.size(), begin = laws.size();
+        for (std::size_t i = 0; i < n && n <= most; ++i) {
+            for (std::size_t j = i; j < n; ++j) {
+                for (std::size_t k = j; k < n; ++k) {
+                    bool const cube = i == k, square = i == j || j == k;
+                    if (cube || (square && j < u_.size())) continue; // x^3, u^2*x
+                    auto const& [a, f] = factors[i];
+                    auto const& [b, g] = factors[j];
+                    auto const& [c, h] = factors[k];
+                    auto const text = i == j   ? a + "^2*" + c
+                                      : j == k ? a + "*" + b + "^2"
+                                               : a + "*" + b + "*" + c;
+                    add(laws, text, *f * *g * *h, {}, text);
+                }
+            }
+        }
+        double const cost = 2 * std::log(static_cast<double>(laws.size() - begin + 1));
+        for (auto k = begin; k < laws.size(); ++k) laws[k].cost = cost;
     }
     /// What fades within half a step of the knots to some steps: quicker it is not seen, and slower
     /// it is no transient.

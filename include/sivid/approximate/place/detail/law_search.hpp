@@ -22,7 +22,7 @@ namespace sivid {
 struct ranked_law {
     std::size_t index = 0;                                    ///< into the list of laws
     double squares = std::numeric_limits<double>::infinity(); ///< left, with regularisation
-    double score = std::numeric_limits<double>::infinity();   ///< 3 squares + functions ln n
+    double score = std::numeric_limits<double>::infinity();   ///< 3 squares + functions ln n + cost
     /// Share of what the free missing rate gains that the law gains too.
     double share = 0;
 };
@@ -92,7 +92,7 @@ public:
             own.share = gain > 0 ? (without - own.squares) / gain : 0;
             double const terms =
                 static_cast<double>(columns.size()) + (laws[k].regime.empty() ? 0 : 1);
-            own.score = 3 * own.squares + terms * std::log(std::max(samples_, 2.0));
+            own.score = 3 * own.squares + terms * std::log(std::max(samples_, 2.0)) + laws[k].cost;
             result.push_back(own);
         }
         std::stable_sort(result.begin(), result.end(),

@@ -55,7 +55,7 @@ public:
         relation_contraction_options equations{.keep_going =
                                                    work_limit(search.seconds / 4, limit_)};
         if (!posed.model.has_memory() && limit_() && test.reached(prior) < 1)
-            prior = contract_without_runs(posed, equations);
+            prior = contract_without_runs(posed, equations).rest;
         if (is_empty(prior)) return std::nullopt;
         equations.keep_going = work_limit(search.seconds, limit_);
         // Parts of what rests are excluded soon or not at all.

@@ -268,7 +268,7 @@ inline void settle_claims(diagnosis_run& run) {
     withdraw_contradictions(run.result, [&run](std::string const& name) {
         auto const at = std::find_if(run.catalogue.begin(), run.catalogue.end(),
                                      [&name](effect const& e) { return e.name == name; });
-        if (at == run.catalogue.end()) return false;
+        if (at == run.catalogue.end() || at->may_leave_traces()) return false;
         return std::all_of(at->parameters.begin(), at->parameters.end(),
                            [](auto const& p) { return contains(p.prior(), nearest(p.neutral)); });
     });

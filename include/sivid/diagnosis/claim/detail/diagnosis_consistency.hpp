@@ -316,7 +316,8 @@ private:
 ///     beside a relation or an inflation of others, which do without this part;
 ///   - an answer that is excluded, "none" beside a certified gap, "unexplained" beside a cause that
 ///     explains, an excluded cause called not told apart; a shrink that the inflations do not give.
-/// @param vanishes  whether an effect's neutral value lies in its prior; empty: every one's does
+/// @param vanishes  whether an effect does at its neutral value, which lies in its prior; empty:
+///   every one does
 [[nodiscard]] inline std::vector<contradiction>
 find_contradictions(diagnosis const& d,
                     std::function<bool(std::string const&)> const& vanishes = {}) {

@@ -100,7 +100,9 @@ judge_by_holdout(screened const& fitted, verified_inflation const& bound,
             diagnosis_detail::measure_tube(sliced ? over->judged : judged, proved.outputs, result);
         }
         result.over_fits = proved.over_fits;
-        auto const both = intersect(result.at_witness, proved.at_witness);
+        auto both = intersect(result.at_witness, proved.at_witness);
+        // The witness is one of them; where inputs are sliced, under assumptions of its own.
+        if (!sliced) both = intersect(both, proved.over_fits);
         if (!is_empty(both)) result.at_witness = both;
     }
 

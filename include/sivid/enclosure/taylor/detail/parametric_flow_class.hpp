@@ -17,6 +17,7 @@
 #include <sivid/model/series/detail/twofold_arithmetic.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
 #include <sivid/number/guard.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -144,7 +145,8 @@ public:
     [[nodiscard]] bool step(double limit) requires(width == 1) {
         if constexpr (width == 1) { // clang before 16 instantiates it with the class of lanes, too
             if (!(limit > set_.time) && running_)
-                throw std::invalid_argument("parametric_flow: a step must go forward");
+                throw std::invalid_argument("parametric_flow: a step must go forward, not to " +
+                                            nearest_text(limit));
             while (running_) {
                 if (advance(limit)) return true;
             }

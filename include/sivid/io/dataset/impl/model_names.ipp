@@ -15,7 +15,7 @@ SIVID_DECL model_names names_of(model_description const& model) {
     for (auto const& c : model.channels) names.channels.push_back({c.name, c.unit});
     for (auto const& s : model.states) {
         names.states.push_back({s.name, s.unit});
-        names.state_ranges.push_back(interval{-s.limit, s.limit});
+        names.state_ranges.push_back(s.limit.range());
     }
     return names;
 }

@@ -6,6 +6,7 @@
 
 #include <sivid/model/change/detail/driving_products.hpp>
 #include <sivid/model/graph/program.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +113,8 @@ SIVID_DECL std::optional<identification_problem>
 with_slower_inputs(identification_problem const& problem, double period) {
     using namespace model_detail;
     if (!(period > 0 && std::isfinite(period))) {
-        throw std::invalid_argument("with_slower_inputs: the period must be positive");
+        throw std::invalid_argument("with_slower_inputs: the period must be positive, not " +
+                                    nearest_text(period));
     }
     auto const& model = problem.model;
     auto const inputs = model.about.inputs.size();

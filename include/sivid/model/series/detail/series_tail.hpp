@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sivid {
@@ -103,6 +105,7 @@ public:
             }
             r = r * up + T::tiny;
         }
+        if (next_ != own_.size()) rules_differ();
     }
 
     /// \f$ \rho \f$ of a slot; 0 for what does not vary. NaN or infinite where nothing is known.
@@ -242,7 +245,17 @@ private:
             break;
         }
     }
-    scalar const& own() { return own_[next_++]; }
+    /// What `enter` has pushed for the operation at hand, in its order.
+    scalar const& own() {
+        if (next_ == own_.size()) rules_differ();
+        return own_[next_++];
+    }
+    /// A rule that reads other numbers than it entered would give wrong bounds.
+    [[noreturn]] void rules_differ() const {
+        throw std::logic_error("series_tail: rules entered " + std::to_string(own_.size()) +
+                               " numbers and read " +
+                               (next_ < own_.size() ? std::to_string(next_) : "more"));
+    }
 
     scalar sum(instruction const& i) {
         scalar total{};

@@ -81,7 +81,9 @@ public:
         take(*shape_);
         copy_numbers(a);
     }
-    taylor_model(taylor_model&& a) : shape_(a.shape_) {
+    /// From memory that belongs to somebody else it copies; where there is none for that, the
+    /// program ends. It says that it does not throw, so that growing vectors move.
+    taylor_model(taylor_model&& a) noexcept : shape_(a.shape_) {
         if (a.lines_ == 0 && a.p_ != nullptr) {
             take(*shape_);
             copy_numbers(a);

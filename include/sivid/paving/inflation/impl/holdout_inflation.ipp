@@ -72,6 +72,7 @@ public:
     std::vector<std::size_t> outliers;
     bool all_starts;         ///< of the held-out experiments; else only bounds from above hold
     bool from_above = false; ///< which end of the range comes first
+    static constexpr bool changes_order = true;
 
     [[nodiscard]] bool before(node const& a, node const& b) const {
         return from_above ? a.most > b.most : a.least < b.least;

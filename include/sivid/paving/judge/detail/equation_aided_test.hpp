@@ -11,6 +11,7 @@
 #include <sivid/paving/set_test.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <memory>
@@ -19,27 +20,42 @@
 
 namespace sivid {
 
+/// What is left of a prior without runs, and the share of the volume that equations and observers
+/// have each left of what they were given, all rounds together.
+struct contraction_without_runs {
+    box rest;
+    double by_equations = 1, by_observers = 1;
+};
+
 /// What the state equations between samples and interval observers, one after the other, leave of
 /// a prior until they rest: no trajectory is integrated. Equations see many measurements together,
 /// observers see states that no channel shows.
 /// @param problem  its model has no delays (checked)
 /// @guarantee  no parameter that explains the data is removed; empty: proved, there is none
 /// @cost  as both (`contract_by_relations`, `observer_contraction`), some rounds of them
-[[nodiscard]] inline box contract_without_runs(identification_problem const& problem,
-                                               relation_contraction_options const& options) {
-    box rest = problem.prior;
-    if (rest.size() == 0) return rest;
-    auto const empty = [&] { return empty_box(rest.size()); };
+[[nodiscard]] inline contraction_without_runs
+contract_without_runs(identification_problem const& problem,
+                      relation_contraction_options const& options) {
+    contraction_without_runs result{problem.prior};
+    auto& rest = result.rest;
+    if (rest.size() == 0) return result;
+    auto const share = [](box const& part, box const& whole) {
+        return is_empty(part) ? 0.0 : std::min(1.0, relative_volume(part, whole).upper());
+    };
     relation_test const between_samples(problem, options);
     observer_contraction along(problem, {.keep_going = options.keep_going});
     for (bool gains = true; gains && (!options.keep_going || options.keep_going());) {
-        auto const found = between_samples(rest);
-        if (found.verdict == box_verdict::outside) return empty();
+        auto found = between_samples(rest);
+        if (found.verdict == box_verdict::outside) found.rest = empty_box(rest.size());
+        result.by_equations *= share(found.rest, rest);
+        rest = found.rest;
+        if (is_empty(rest)) return result;
         rest = along(found.rest);
-        if (is_empty(rest)) return rest;
-        gains = relative_volume(rest, found.rest).upper() < 0.8;
+        double const left = share(rest, found.rest);
+        result.by_observers *= left;
+        gains = !is_empty(rest) && left < 0.8;
     }
-    return rest;
+    return result;
 }
 
 /// `feasibility_test`, and where its runs end before they could tell interval observers and the

@@ -31,6 +31,17 @@ inline feasibility_test_options as_searched(feasibility_test_options test, algor
     if (how != algorithm::contracting) test.contract = false;
     return test;
 }
+/// How it is searched.
+inline inversion_options as_searched(inversion_options search, identify_options const& options) {
+    constexpr double resting = 0.02; // of a side
+    if (options.algorithm != algorithm::contracting) {
+        search.order = search_order::first_in;
+        search.accuracy_of_hull = false;
+    } else if (options.only_hulls && !(search.hull_gain > 0)) {
+        search.hull_gain = resting;
+    }
+    return search;
+}
 
 /// A start of each experiment that a fit proposes, within what is known of them.
 inline std::vector<box> starts_of(approximate_fit const& fit,

@@ -3,9 +3,10 @@
 #define SIVID_PAVING_JUDGE_DETAIL_PRIOR_CONTRACTION_HPP
 
 /// @file
-/// What `identify` does before it searches where runs over the prior end early: slower inputs where
-/// a logger is faster than the motion, or else the state equations between samples and windows that
-/// grow; windows all along the records where starts are not known.
+/// What `identify` does before it searches where runs over the prior end early, in this order:
+/// shapes in place of constants; state equations and interval observers, then a window that grows
+/// or windows that equations guide; slower inputs where a logger is faster than the motion; a
+/// window that grows; windows all along the records where starts are not known.
 
 #include <sivid/measurement/signal.hpp>
 #include <sivid/model/change/detail/slower_inputs.hpp>
@@ -144,8 +145,11 @@ inline std::optional<window_contraction> contract_by_equations(feasibility_test&
     if (posed.model.has_memory() || !(test.reached(posed.prior) < 0.25)) return std::nullopt;
     work_limit const own(0.15 * limit.seconds(), limit);
     window_contraction result;
-    result.rest = contract_without_runs(posed, {.keep_going = own});
-    if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
+    auto found = contract_without_runs(posed, {.keep_going = own});
+    if (!(relative_volume(found.rest, posed.prior).upper() < 1)) return std::nullopt;
+    result.rest = std::move(found.rest);
+    result.by_equations = found.by_equations;
+    result.by_observers = found.by_observers;
     for (auto const& e : posed.experiments) result.starts.push_back(e.initial);
     result.seconds = own.spent();
     return result;
@@ -216,17 +220,18 @@ contract_prior(feasibility_test& test, identification_problem const& posed, box 
     };
     auto const asked = [&]() -> feasibility_test& { return after ? *after : test; };
     bool again = false, slowed = false;
-    if (options.windows && limit() && test.reached(posed.prior) < 0.25) {
+    if (options.shapes && limit() && test.reached(posed.prior) < 0.25) {
         if (auto found = contract_by_shapes(posed, options, limit)) {
             (void)go_on_with(*std::move(found));
             return result;
         }
     }
-    if (options.windows && limit()) {
+    if (options.windows && limit())
         again = starts_hinder(test, posed); // of which the equations tell nothing
+    if (options.equations && limit()) {
         if (auto found = contract_by_equations(test, posed, limit)) {
             if (!go_on_with(*std::move(found))) return result;
-            if (!again && asked().reached(hindered.prior) < 0.25) {
+            if (options.windows && !again && asked().reached(hindered.prior) < 0.25) {
                 // A window that grows is quick where it is of use.
                 auto more = contract_by_growing_windows(asked(), hindered, options, limit, 0.1);
                 bool const of_use =

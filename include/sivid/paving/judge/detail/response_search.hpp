@@ -10,7 +10,6 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -28,7 +27,8 @@ concept response_policy = std::derived_from<typename P::node, explored_box> &&
     policy.judge(x);
 };
 
-/// Branch and bound over boxes of parameters, best first.
+/// Branch and bound over boxes of parameters, best first: a heap, unless the policy says that its
+/// order changes while boxes wait (`changes_order`), then each look goes over all of them.
 ///   A box hands its responses to its halves, which re-expand them; an experiment is integrated
 ///   anew for a part when the policy calls it stale. Blind boxes are integrated over together, as
 ///   many as a pack takes.
@@ -43,7 +43,7 @@ public:
     response_search(identification_problem const& problem, feasibility_test_options const& options,
                     Policy policy, box start, node known = {})
         : policy_(std::move(policy)), explorer_(problem, options) {
-        waiting_.push_back(explorer_.unknown(std::move(start), std::move(known)));
+        wait(explorer_.unknown(std::move(start), std::move(known)));
     }
 
     [[nodiscard]] Policy& policy() { return policy_; }
@@ -87,34 +87,40 @@ public:
             auto other = take();
             (other.is_blind() ? blind : others).push_back(std::move(other));
         }
-        std::move(others.begin(), others.end(), std::back_inserter(waiting_));
+        for (auto& other : others) wait(std::move(other));
         explorer_.learn(blind, go_on);
-        for (auto& b : blind) {
-            if (b.fresh) {
-                look(std::move(b));
-            } else {
-                waiting_.push_back(std::move(b));
-            }
-        }
+        for (auto& b : blind) b.fresh ? look(std::move(b)) : wait(std::move(b));
     }
 
 private:
+    static constexpr bool heaped = !requires { requires Policy::changes_order; };
+
+    [[nodiscard]] auto after() const {
+        return [this](node const& a, node const& b) { return policy_.before(b, a); };
+    }
     [[nodiscard]] typename std::vector<node>::const_iterator first() const {
-        return std::min_element(
-            waiting_.begin(), waiting_.end(),
-            [this](node const& a, node const& b) { return policy_.before(a, b); });
+        if constexpr (heaped) return waiting_.begin();
+        return std::max_element(waiting_.begin(), waiting_.end(), after());
+    }
+    void wait(node x) {
+        waiting_.push_back(std::move(x));
+        if constexpr (heaped) std::push_heap(waiting_.begin(), waiting_.end(), after());
     }
     [[nodiscard]] node take() {
-        auto const at = waiting_.begin() + (first() - waiting_.cbegin());
-        auto x = std::move(*at);
-        if (at + 1 != waiting_.end()) *at = std::move(waiting_.back());
+        if constexpr (heaped) {
+            std::pop_heap(waiting_.begin(), waiting_.end(), after());
+        } else {
+            auto const at = waiting_.begin() + (first() - waiting_.cbegin());
+            std::iter_swap(at, waiting_.end() - 1);
+        }
+        auto x = std::move(waiting_.back());
         waiting_.pop_back();
         return x;
     }
     void look(node x) {
         ++tested_;
         if (std::find(x.known.begin(), x.known.end(), nullptr) == x.known.end()) policy_.judge(x);
-        if (!policy_.drops(x)) waiting_.push_back(std::move(x));
+        if (!policy_.drops(x)) wait(std::move(x));
     }
 
     Policy policy_;

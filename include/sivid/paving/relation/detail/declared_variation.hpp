@@ -58,9 +58,8 @@ find_rate_scales(bound_model const& model, box const& prior, experiment const& e
     for (std::size_t k = 0; k + 1 < times.size(); ++k) {
         leaf_ranges at{traits::bounds(times[k], times[k + 1]), box(n), prior, box(e.inputs.size())};
         for (std::size_t i = 0; i < n; ++i) {
-            double const limit = model.about.states[i].limit;
             auto const seen = data[i] ? data[i]->near(times[k]) : std::nullopt;
-            at.states[i] = seen ? *seen : traits::bounds(-limit, limit);
+            at.states[i] = seen ? *seen : model.about.states[i].limit.range();
         }
         for (std::size_t u = 0; u < e.inputs.size(); ++u) {
             at.inputs[u] = input_across(e.inputs[u], times[k], times[k + 1]);

@@ -50,7 +50,8 @@ public:
           inputs_(e.inputs),
           initial_(e.initial) {
         auto const n = model.state_count();
-        for (auto const& s : model.about.states) limits_.push_back(believed ? s.limit : HUGE_VAL);
+        for (auto const& s : model.about.states)
+            limits_.push_back(believed ? s.limit.range() : traits::entire());
         std::vector<double> times;
         double spacing = HUGE_VAL;
         samples_.resize(n);
@@ -79,9 +80,7 @@ public:
     [[nodiscard]] interval length(std::size_t c) const {
         return traits::sub(traits::point(cells_[c].to), traits::point(cells_[c].from));
     }
-    [[nodiscard]] interval own_range(std::size_t i) const {
-        return traits::bounds(-limits_[i], limits_[i]);
-    }
+    [[nodiscard]] interval const& own_range(std::size_t i) const { return limits_[i]; }
     [[nodiscard]] leaf_ranges leaves(std::size_t c, box const& states) const {
         return {traits::bounds(cells_[c].from, cells_[c].to), states, prior_, cells_[c].inputs};
     }
@@ -304,7 +303,7 @@ private:
     box prior_;
     std::vector<signal> inputs_;
     box initial_;
-    std::vector<double> limits_;
+    std::vector<interval> limits_;
     std::vector<std::optional<state_samples>> samples_;
     std::vector<derivative_pair> pairs_; ///< q is sampled, r is not
     integrand_set set_;

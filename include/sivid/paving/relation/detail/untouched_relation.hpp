@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -27,7 +29,7 @@ public:
         if (auto const known = image_.find(a); known != image_.end()) return known->second == b;
         auto const& m = (*a_)[a];
         auto const& n = (*b_)[b];
-        if (m.op != n.op) return false;
+        if (m.op != n.op || different_.count({a, b}) > 0) return false;
         if (m.op == operation::literal) {
             auto const& x = a_->value(m).enclosure;
             auto const& y = b_->value(n).enclosure;
@@ -36,17 +38,27 @@ public:
             return false;
         }
         if (!is_leaf(m.op)) {
-            if (!(*this)(m.a, n.a)) return false;
-            if (is_binary(m.op) && !(*this)(m.b, n.b)) return false;
+            if (!operands(m, n.a, n.b) && !(commutes(m.op) && operands(m, n.b, n.a)))
+                return different_.insert({a, b}), false;
         }
         image_[a] = b;
         return true;
     }
 
 private:
+    [[nodiscard]] bool operands(node const& m, node_id a, node_id b) {
+        return (*this)(m.a, a) && (!is_binary(m.op) || (*this)(m.b, b));
+    }
+    /// Graphs put operands in the order in which they were made.
+    [[nodiscard]] static bool commutes(operation op) {
+        return op == operation::add || op == operation::mul || op == operation::min ||
+               op == operation::max;
+    }
+
     graph const* a_;
     graph const* b_;
     std::map<node_id, node_id> image_;
+    std::set<std::pair<node_id, node_id>> different_; ///< found so: each pair is tried once
 };
 
 } // namespace paving_detail

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_SEARCH_DETAIL_BOX_TEST_HPP
 #define SIVID_PAVING_SEARCH_DETAIL_BOX_TEST_HPP
 
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/space/box_lanes.hpp>
 
@@ -41,7 +42,8 @@ public:
         lane_mask<I> cut{};
         basic_box<I> const y = f_(x, cut);
         if (y.size() != target_.size())
-            throw std::invalid_argument("image_test: f has another size than its target");
+            throw std::invalid_argument("image_test: f has another size than its target" +
+                                        needed_given(target_.size(), y.size()));
         finding<I> says{.rest = x};
         auto holds = every_lane<I>();
         lane_mask<I> fails{};

@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -55,9 +56,10 @@ public:
         if (options.proof_bytes > 0) log_.emplace(options.proof_bytes);
         if (prior.size() == 0 || is_empty(prior))
             throw std::invalid_argument("invert: empty prior");
-        for (auto const& side : prior) {
-            if (!std::isfinite(width(side))) throw std::invalid_argument("invert: unbounded prior");
-        }
+        for (std::size_t i = 0; i < prior.size(); ++i)
+            if (!std::isfinite(width(prior[i])))
+                throw std::invalid_argument("invert: side " + std::to_string(i) +
+                                            " of the prior (counted from 0) is unbounded");
         if (options_.resume) {
             restore(*options_.resume);
         } else {

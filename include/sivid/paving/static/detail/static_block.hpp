@@ -11,6 +11,7 @@
 #include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sivid {
@@ -30,7 +31,8 @@ struct static_samples {
         : end(problem.model.about.channels.size(), 0) {
         auto const& all = problem.measurements;
         if (all.size() >= std::numeric_limits<index>::max()) {
-            throw std::invalid_argument("static problem: too many measurements");
+            throw std::invalid_argument("static problem: too many measurements, " +
+                                        std::to_string(all.size()));
         }
         for (auto const& m : all) ++end[m.channel];
         std::partial_sum(end.begin(), end.end(), end.begin());

@@ -14,11 +14,12 @@ SIVID_DECL void add_parameters(page& out, identification_view const& v) {
                         {"unit"},
                         {"prior", column_kind::number},
                         {"hull (proved)", column_kind::number},
-                        {"width / prior", column_kind::number},
+                        {"left of the prior", column_kind::number},
                         {"witness, about", column_kind::number},
                         {"meaning", column_kind::note}},
             .caption = "The hull contains every value that can explain the data; its ends are "
-                       "rounded outward."};
+                       "rounded outward. What is left of the prior is at most the share of its "
+                       "range that is given: values between the ends may be excluded, too."};
     for (parameter_view const& p : v.parameters) {
         interval_row row{p.name, p.unit, p.prior, p.hull};
         if (v.witness) {

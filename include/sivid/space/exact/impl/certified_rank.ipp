@@ -2,6 +2,7 @@
 #ifndef SIVID_SPACE_EXACT_IMPL_CERTIFIED_RANK_IPP
 #define SIVID_SPACE_EXACT_IMPL_CERTIFIED_RANK_IPP
 
+#include <sivid/number/text/needed_given.hpp>
 #include <sivid/space/dense.hpp>
 #include <sivid/space/exact/detail/certified_rank.hpp>
 
@@ -60,7 +61,8 @@ SIVID_DECL std::size_t certified_rank(interval_matrix<interval> const& a,
     using traits = interval_traits<interval>;
     if (weights.empty()) weights.assign(a.rows(), 1.0);
     if (weights.size() != a.rows())
-        throw std::invalid_argument("certified_rank: one weight per row");
+        throw std::invalid_argument("certified_rank: one weight per row" +
+                                    needed_given(a.rows(), weights.size()));
     auto const kept = space_detail::bounded_rows(a, weights);
     if (kept.rows() == 0 || kept.cols() == 0) return 0;
     auto centre = approximate_mid(kept);
