@@ -10,6 +10,7 @@
 #include "support/random.hpp"
 #include "support/reference.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -94,6 +95,62 @@ TEST_CASE("by any set and method, at and over contain every trajectory") {
         }
     }
     CHECK(widest_models < narrowest_first);
+}
+
+TEST_CASE("over a short time a motion says little more than what it does there") {
+    // x = t^3 - 3 t in steps of about one unit, and the same with a parameter.
+    auto const cubic = [](auto const& t, auto const&, auto const& p, auto const&) {
+        return std::vector{p[0] * (sqr(t) - 1)};
+    };
+    auto const f = support::flow_of(support::model_of({1, 1, 0, 1e3}, cubic));
+    auto const value = [](double start, double p, double t) {
+        long double const s = t, c = static_cast<long double>(p) / 3;
+        return static_cast<long double>(start) + c * (s * s * s - 3 * s) + 18 * c;
+    };
+    draws d(5);
+    for (auto const set : {carried_set::doubleton, carried_set::taylor_model}) {
+        for (auto const& method :
+             {std::optional<tableau>{}, std::optional{rk4()}, std::optional{gauss4()}}) {
+            for (double const r : {0.0, 0.01}) {
+                CAPTURE(static_cast<int>(set), method ? method->name : "taylor", r);
+                enclosure_options options{.tolerance = 1e-6, .relative_tolerance = 1e-3};
+                options.method = method;
+                box const start{between(-18 - r, -18 + r)}, p{between(3 - r, 3 + r)};
+                auto const motion = enclose(f, start, p, -3, 3, set, options);
+                REQUIRE(motion.complete());
+                auto const check = [&](double from, double to) {
+                    auto const over = motion.over(from, to)[0];
+                    double least = HUGE_VAL, most = -HUGE_VAL;
+                    for (int k = 0; k <= 40; ++k) {
+                        double const t = k == 40 ? to : from + (to - from) * k / 40;
+                        for (double const x : {start[0].lower(), start[0].upper()}) {
+                            for (double const c : {p[0].lower(), p[0].upper()}) {
+                                auto const y = value(x, c, t);
+                                CAPTURE(from, to, t, over.lower(), over.upper());
+                                REQUIRE(support::encloses_reference(over, y));
+                                least = std::min(least, static_cast<double>(y));
+                                most = std::max(most, static_cast<double>(y));
+                            }
+                        }
+                    }
+                    return width(over) - (most - least);
+                };
+                for (double const from : {-1.9, 0.0, 1.7, -3.0, 2.9})
+                    CHECK(check(from, from + 0.1) < 0.1 + 20 * r);
+                for (int round = 0; round < 10; ++round) { // across the ends of steps
+                    auto const& span = motion.spans()[d.below(motion.spans().size())];
+                    double const from = std::max(-3.0, span.to - d.uniform(0, 0.05)),
+                                 to = std::min(3.0, span.to + d.uniform(0, 0.05));
+                    CHECK(check(from, to) < 0.1 + 20 * r);
+                    CHECK(check(from, span.to) < 0.1 + 20 * r);
+                    auto const at = motion.at(from), degenerate = motion.over(from, from);
+                    CHECK(at[0].lower() == degenerate[0].lower());
+                    CHECK(at[0].upper() == degenerate[0].upper());
+                }
+                CHECK(check(-3, 3) < 60);
+            }
+        }
+    }
 }
 
 TEST_CASE("sets of first order are those of integrate, in any interval type") {

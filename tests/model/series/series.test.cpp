@@ -121,6 +121,33 @@ TEST_CASE("each operation's recurrence, varying, constant and literal operands")
     }
 }
 
+TEST_CASE("large powers follow from half powers, also of what changes its sign") {
+    draws d(171);
+    graph g;
+    expression const x(g, g.leaf(operation::state, 0));
+    for (int const n : {3, 7, 8, 9, 10, 11, 12, 15, 24, 33}) {
+        tape const program(g, {pown(x, n).in(g)});
+        for (double const radius : {0.0, 0.01, 0.5}) {
+            auto where = random_given(d, radius);
+            if (n % 3 == 0) where.x[0][0] = d.interval(-0.2, 0.2, radius);
+            auto const s = expanded(program, where);
+            auto const direct = pown(where.x[0][0], n); // sharp: of even powers never below 0
+            CHECK(s.output(0, 0).lower() == direct.lower());
+            CHECK(s.output(0, 0).upper() == direct.upper());
+            for (int sample = 0; sample < 5; ++sample) {
+                auto const m = random_member(d, where);
+                auto exact = m.x[0];
+                for (int k = 1; k < n; ++k) exact = exact * m.x[0];
+                for (std::size_t k = 0; k <= K; ++k) {
+                    CAPTURE(n, radius, k);
+                    REQUIRE(encloses(s.output(0, k), exact.c[k], 1e-28));
+                    if (radius == 0) CHECK(rad(s.output(0, k)) <= 1e-9 * (1 + mag(s.output(0, k))));
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("recurrences of composed formulas") {
     draws d(162);
     int compared = 0;
