@@ -24,6 +24,16 @@ struct swept_span {
     box states;              ///< contains all of them at all times in [from, to]
 };
 
+/// Which sets prove a motion, and up to when [the model's unit of time]: nothing where none of a
+/// kind were carried. What is said of a time rests on all that reach it.
+struct carried_spans {
+    std::optional<double> taylor_models;
+    std::optional<double> first_order;
+    /// From here on the Taylor models are in fresh variables for the states; before, in those of
+    /// the box of starts. Nothing: in these to the end.
+    std::optional<double> fresh_starts;
+};
+
 /// What says more of an enclosed motion than its spans do.
 class motion_between_spans {
 public:
@@ -52,8 +62,12 @@ public:
     /// Of spans that somebody else has proved, one after the other.
     enclosed_motion(std::shared_ptr<motion_between_spans const> between,
                     std::vector<swept_span> spans, double end,
-                    std::optional<enclosure_failure> const& failure)
-        : between_(std::move(between)), end_(end), failure_(failure), spans_(std::move(spans)) {}
+                    std::optional<enclosure_failure> const& failure, carried_spans const& carried)
+        : between_(std::move(between)),
+          end_(end),
+          failure_(failure),
+          spans_(std::move(spans)),
+          carried_(carried) {}
 
     /// Everything up to this time is proved.
     [[nodiscard]] double end_time() const { return end_; }
@@ -61,6 +75,7 @@ public:
     [[nodiscard]] std::optional<enclosure_failure> const& failure() const { return failure_; }
     /// The proved steps, one after the other.
     [[nodiscard]] std::vector<swept_span> const& spans() const { return spans_; }
+    [[nodiscard]] carried_spans const& carried() const { return carried_; }
 
     /// A box that contains all states at time t.
     /// @throws std::out_of_range  outside the proved span
@@ -84,6 +99,7 @@ private:
     double end_ = 0;
     std::optional<enclosure_failure> failure_;
     std::vector<swept_span> spans_;
+    carried_spans carried_;
 };
 
 /// `explain_failure` for the sets that an `enclosed_motion` carries: what could help it.

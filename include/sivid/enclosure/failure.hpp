@@ -38,10 +38,11 @@ enum class advice {
     higher_order,
     more_steps,
     shorter_steps,
-    other_method, ///< an explicit one
-    other_set,    ///< one that keeps more of the dependence on the unknowns
-    parts_only,   ///< parts of the box go further, others do not
-    nothing       ///< most often since a single trajectory ends there itself
+    other_method,  ///< an explicit one
+    other_set,     ///< one that keeps more of the dependence on the unknowns
+    higher_degree, ///< of Taylor models that were carried
+    parts_only,    ///< parts of the box go further, others do not
+    nothing        ///< most often since a single trajectory ends there itself
 };
 
 [[nodiscard]] constexpr std::string_view to_string(failure_reason r) {
@@ -78,7 +79,9 @@ enum class advice {
     case advice::other_method:
         return "use an explicit method";
     case advice::other_set:
-        return "use Taylor models, or a higher degree of them";
+        return "use Taylor models";
+    case advice::higher_degree:
+        return "use Taylor models of a higher degree";
     case advice::parts_only:
         return "split the box: parts of it go further, others do not";
     case advice::nothing:
@@ -89,7 +92,9 @@ enum class advice {
 
 /// What is most likely to help, from what the state that stopped a set spans as a function of the
 /// unknowns, and what it has lost besides to truncation, rounding and wrapping. A point cannot be
-/// split; what is lost, another set may keep; what truly varies can only be split.
+/// split; what is lost, another set may keep; what truly varies can only be split. Whoever carries
+/// sets says what its caller can do: Taylor models `higher_degree` in place of `other_set`, and
+/// `enclose`, which has no degree to be given, `smaller_box`.
 /// `explain_failure` tries it.
 /// @param wide  parameters or initial states have a width
 [[nodiscard]] constexpr advice advise(failure_reason r, bool wide, double spread, double lost) {

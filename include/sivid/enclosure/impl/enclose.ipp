@@ -5,6 +5,7 @@
 #include <sivid/enclosure/enclose.hpp>
 
 #include <sivid/enclosure/observation.hpp>
+#include <sivid/enclosure/set/detail/fresh_starts.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
 #include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
@@ -13,6 +14,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -40,17 +44,16 @@ public:
     [[nodiscard]] static enclosed_motion run(std::shared_ptr<flow const> f, box const& initial,
                                              box const& parameters, double from, double to,
                                              enclosure_options const& options) {
-        auto const motion = std::make_shared<taylor_motion>(f, initial, parameters, from,
-                                                            for_span(options, to - from));
-        auto run = motion->begin();
-        while (run->time() < to) {
-            motion->keep(run->set());
-            double const before = run->time();
-            if (!run->step(to)) break;
-            motion->spans_.push_back({before, run->time(), run->swept()});
-        }
-        motion->last_ = run->set();
-        return {motion, motion->spans_, run->time(), run->failure()};
+        auto const first = std::make_shared<taylor_motion>(f, initial, parameters, from,
+                                                           for_span(options, to - from));
+        first->carry(first->begin(from), to);
+        auto const again = first->once_more(to);
+        auto const& best = again && again->last_.time > first->last_.time ? again : first;
+        carried_spans carried{best->last_.time, std::nullopt, std::nullopt};
+        if (best == again) carried.fresh_starts = again->fresh_;
+        auto failure = best->failure_; // no degree is the caller's to choose
+        if (failure && failure->help == advice::higher_degree) failure->help = advice::smaller_box;
+        return {best, best->spans_, best->last_.time, failure, carried};
     }
 
     [[nodiscard]] box at(double t) const override {
@@ -87,6 +90,70 @@ public:
 private:
     /// Sets that are kept at most; when there are more, every second one is left out.
     static constexpr std::size_t most_kept = 64;
+    /// A set is worn when what it has lost exceeds this share of what its polynomials span: the
+    /// flow's derivative over it is then mainly that of a box, whose effects intervals only add up.
+    static constexpr double worn_share = 0.25;
+    /// A second run is not made where its polynomials have more than so many times the terms.
+    static constexpr std::size_t most_terms = 8;
+
+    /// Steps until the end, or a failure.
+    void carry(std::unique_ptr<Run> run, double to) {
+        while (run->time() < to) {
+            if (run->time() >= fresh_ && worn(run->set())) run->resume(fresh(run->set()));
+            keep(run->set());
+            double const before = run->time();
+            if (!run->step(to)) break;
+            spans_.push_back({before, run->time(), run->swept()});
+        }
+        last_ = run->set();
+        failure_ = run->failure();
+    }
+    /// The same from the last set that was not worn, as a family of starts of its own, and so again
+    /// whenever that is worn.
+    /// @returns  nothing where that cannot help
+    [[nodiscard]] std::shared_ptr<taylor_motion> once_more(double to) const {
+        if (!failure_ || failure_->reason == failure_reason::cancelled ||
+            failure_->reason == failure_reason::step_limit)
+            return nullptr;
+        if (fresh_shape().terms > most_terms * shape_of(starts_and_parameters()).terms)
+            return nullptr;
+        std::size_t k = kept_.size();
+        while (k > 1 && worn(kept_[k - 1])) --k;
+        if (k <= 1) return nullptr; // the first one is the box of starts itself
+        auto const again = std::make_shared<taylor_motion>(*this);
+        auto const& set = kept_[--k];
+        again->fresh_ = set.time;
+        again->spans_.resize(k * every_);
+        again->kept_.resize(k);
+        auto run = again->begin(set.time);
+        run->resume(again->fresh(set));
+        again->carry(std::move(run), to);
+        return again;
+    }
+    [[nodiscard]] bool worn(set_type const& set) const {
+        auto const& states = flow_->model().about.states;
+        std::size_t most = 0;
+        for (std::size_t i = 1; i < states.size(); ++i) {
+            if (set.reach[i] / states[i].limit > set.reach[most] / states[most].limit) most = i;
+        }
+        return !(set.reach[most] <= worn_share * set.centre[most].spread());
+    }
+    [[nodiscard]] set_type fresh(set_type const& set) const {
+        return with_fresh_starts(set, parameters_with_width(), fresh_shape());
+    }
+    [[nodiscard]] std::size_t parameters_with_width() const {
+        return normalised_unknowns(box{}, parameters_).variables;
+    }
+    [[nodiscard]] std::size_t starts_and_parameters() const {
+        return normalised_unknowns(initial_, parameters_).variables;
+    }
+    [[nodiscard]] static model_shape<double> const& shape_of(std::size_t unknowns) {
+        return model_shape<double>::of(unknowns, suggested_degree(unknowns));
+    }
+    /// Of sets whose states all have a variable.
+    [[nodiscard]] model_shape<double> const& fresh_shape() const {
+        return shape_of(parameters_with_width() + initial_.size());
+    }
 
     /// The set before the next step, where it is one to be kept.
     void keep(set_type const& set) {
@@ -103,16 +170,18 @@ private:
         if (spans_.empty()) return set->hull();
         return set ? intersect(set->hull(), swept_at(t)) : swept_at(t);
     }
-    [[nodiscard]] std::unique_ptr<Run> begin() const {
-        auto const unknowns = normalised_unknowns(initial_, parameters_).variables;
-        auto run = std::make_unique<Run>(*flow_, options_, unknowns, suggested_degree(unknowns));
+    /// @param time  of the sets that it is for
+    [[nodiscard]] std::unique_ptr<Run> begin(double time) const {
+        auto const& shape = time >= fresh_ ? fresh_shape() : shape_of(starts_and_parameters());
+        auto run = std::make_unique<Run>(*flow_, options_, shape.variables, shape.degree);
         run->begin(from_, initial_, parameters_);
         return run;
     }
     /// A run at time t; nothing where no other steps than those that were made are proved.
     [[nodiscard]] std::unique_ptr<Run> run_to(double t) const {
-        auto run = begin();
-        run->resume(kept_before(t));
+        auto const& set = kept_before(t);
+        auto run = begin(set.time);
+        run->resume(set);
         while (run->time() < t) {
             if (!run->step(t)) return nullptr;
         }
@@ -145,7 +214,81 @@ private:
     std::size_t every_ = 4;
     std::vector<set_type> kept_;
     set_type last_;
+    std::optional<enclosure_failure> failure_;
+    /// From here on sets have variables of their own for their starts.
+    double fresh_ = std::numeric_limits<double>::infinity();
 };
+
+/// A motion that is proved twice: what is said of a time is what both proofs say that reach it.
+class motion_proved_twice final : public motion_between_spans {
+public:
+    motion_proved_twice(enclosed_motion one, enclosed_motion other)
+        : one_(std::move(one)), other_(std::move(other)) {}
+
+    [[nodiscard]] static enclosed_motion of(enclosed_motion const& taylor,
+                                            enclosed_motion const& first_order) {
+        auto const& further = first_order.end_time() > taylor.end_time() ? first_order : taylor;
+        auto carried = taylor.carried();
+        carried.first_order = first_order.end_time();
+        auto failure = further.failure();
+        if (failure && failure->help == advice::other_set) failure->help = advice::smaller_box;
+        return {std::make_shared<motion_proved_twice>(taylor, first_order),
+                spans(taylor.spans(), first_order.spans()), further.end_time(), failure, carried};
+    }
+    [[nodiscard]] box at(double t) const override {
+        return said(t, [t](enclosed_motion const& m) { return m.at(t); });
+    }
+    [[nodiscard]] box observe_at(double t) const override {
+        return said(t, [t](enclosed_motion const& m) { return m.observe_at(t); });
+    }
+
+private:
+    template <class Say>
+    [[nodiscard]] box said(double t, Say const& say) const {
+        if (t > one_.end_time()) return say(other_);
+        if (t > other_.end_time()) return say(one_);
+        return intersect(say(one_), say(other_));
+    }
+    /// Wherever a step of either ends, a span does.
+    [[nodiscard]] static std::vector<swept_span> spans(std::vector<swept_span> const& one,
+                                                       std::vector<swept_span> const& other) {
+        std::vector<swept_span> result;
+        auto a = one.begin(), b = other.begin();
+        while (a != one.end() && b != other.end()) {
+            double const to = std::min(a->to, b->to);
+            result.push_back({std::max(a->from, b->from), to, intersect(a->states, b->states)});
+            if (!(a->to > to)) ++a;
+            if (!(b->to > to)) ++b;
+        }
+        for (auto const& [rest, end] : {std::pair{a, one.end()}, std::pair{b, other.end()}}) {
+            for (auto s = rest; s != end; ++s) {
+                double const from = result.empty() ? s->from : std::max(s->from, result.back().to);
+                result.push_back({from, s->to, s->states});
+            }
+        }
+        return result;
+    }
+
+    enclosed_motion one_, other_;
+};
+
+/// By Taylor models, and where these are sets about a single point, or end early, by sets of first
+/// order, too: over points they lose less to roundings as often as not, and over boxes there are
+/// functions that polynomials fail where slopes do not. They get twice the steps.
+template <class Run>
+[[nodiscard]] enclosed_motion enclose_by_all(std::shared_ptr<flow const> const& f,
+                                             box const& initial, box const& parameters, double from,
+                                             double to, enclosure_options const& options) {
+    auto motion = taylor_motion<Run>::run(f, initial, parameters, from, to, options);
+    bool const point = normalised_unknowns(initial, parameters).variables == 0;
+    bool const stopped = motion.failure() && motion.failure()->reason == failure_reason::cancelled;
+    if (stopped || (motion.complete() && !point)) return motion;
+    auto limited = options;
+    limited.maximum_steps = std::min(options.maximum_steps, 2 * motion.spans().size() + 200);
+    enclosed_motion const other(f, initial, parameters, from, to, limited);
+    if (!point && !(other.end_time() > motion.end_time())) return motion;
+    return motion_proved_twice::of(motion, other);
+}
 
 } // namespace enclosure_detail
 
@@ -159,12 +302,9 @@ SIVID_DECL enclosed_motion enclose(std::shared_ptr<flow const> f, box const& ini
     if (!(from <= to))
         throw std::invalid_argument("enclose: the end, " + nearest_text(to) +
                                     ", lies before the begin, " + nearest_text(from));
-    if (options.method) {
-        return taylor_motion<parametric_runge_kutta<>>::run(std::move(f), initial, parameters, from,
-                                                            to, options);
-    }
-    return taylor_motion<parametric_flow<>>::run(std::move(f), initial, parameters, from, to,
-                                                 options);
+    return options.method
+               ? enclose_by_all<parametric_runge_kutta<>>(f, initial, parameters, from, to, options)
+               : enclose_by_all<parametric_flow<>>(f, initial, parameters, from, to, options);
 }
 
 SIVID_DECL enclosed_motion enclose(recorded_model const& model, parameter_choice const& choice,

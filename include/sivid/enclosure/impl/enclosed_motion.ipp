@@ -25,6 +25,7 @@ SIVID_DECL enclosed_motion::enclosed_motion(std::shared_ptr<flow const> f, box c
           integrate<interval>(std::move(f), initial, parameters, from, to, options))),
       end_(tube_->end_time()),
       failure_(tube_->failure()) {
+    carried_.first_order = end_;
     for (auto const& step : tube_->steps()) spans_.push_back({step.from, step.to, step.swept});
 }
 SIVID_DECL box enclosed_motion::at(double t) const {

@@ -70,6 +70,7 @@ SIVID_DECL std::string advised_failure::what(remedy_trial const& t, std::string 
     case advice::other_method:
         return o.method->name;
     case advice::other_set:
+    case advice::higher_degree:
         return "the other set";
     default:
         return "parts 1/" + short_text(1 / t.share) + " as wide";

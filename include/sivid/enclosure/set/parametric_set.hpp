@@ -4,9 +4,9 @@
 
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/normalised_unknowns.hpp>
+#include <sivid/enclosure/set/detail/framed_box.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>
 #include <sivid/space/box.hpp>
-#include <sivid/space/frame/detail/common_frame.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -180,6 +180,7 @@ void complete(enclosure_failure& why, parametric_set<Model> const& set, std::siz
     why.spread = side_by_side::get(set.centre[why.component].spread(), lane);
     why.lost = side_by_side::get(set.reach[why.component], lane);
     why.help = advise(why.reason, unknowns.variables > 0, why.spread, why.lost);
+    if (why.help == advice::other_set) why.help = advice::higher_degree;
 }
 
 /// One of the families that lie side by side.
@@ -252,54 +253,16 @@ template <class Model>
 std::size_t parametric_set<Model>::box_together(std::size_t first, std::size_t count,
                                                 std::vector<C> const& unit, std::vector<C>& lost,
                                                 mask used) {
-    auto const n = centre.size();
-    std::vector<std::vector<C>> directions;
-    for (std::size_t k = first; k < first + count; ++k) {
-        auto& d = directions.emplace_back(n);
-        for (std::size_t i = 0; i < n; ++i) d[i] = columns[k][i].c()[0] / unit[i];
-    }
-    auto const frame =
-        common_frame(std::move(directions), [&](auto const& x) { return shares(x, used); });
-    double up = 1; // enough for the sums over the terms of an entry
-    for (std::size_t k = first; k < first + count; ++k) {
-        for (auto const& entry : columns[k]) up = std::max(up, entry.shape().up);
-    }
-    // Coordinates of the columns in the frame: (1 + R)^{-1} Q^T g with |R| <= defect.
-    std::vector<C> side(n);
-    std::vector<C> along(n);
-    for (std::size_t k = first; k < first + count; ++k) {
-        auto const& g = columns[k];
-        C most_along{};
-        for (std::size_t i = 0; i < n; ++i) {
-            C sum{}, mass{};
-            std::size_t terms = 1;
-            for (auto const& entry : g) terms = std::max(terms, entry.terms());
-            for (std::size_t m = 0; m < terms; ++m) {
-                C c{};
-                for (std::size_t l = 0; l < n; ++l) {
-                    if (m < g[l].terms()) c += frame.axis[i][l] * (g[l].c(m) / unit[l]);
-                }
-                sum += side_by_side::abs(c);
-            }
-            for (std::size_t l = 0; l < n; ++l) {
-                mass += side_by_side::abs(frame.axis[i][l]) * (g[l].norm() / unit[l]);
-            }
-            along[i] = sum * up + mass * (static_cast<double>(n + 4) * Model::unit) + Model::tiny;
-            most_along = side_by_side::max(along[i], most_along);
-        }
-        for (std::size_t i = 0; i < n; ++i) side[i] += along[i] + frame.defect * most_along;
-    }
+    auto const begin = columns.begin() + static_cast<std::ptrdiff_t>(first);
+    enclosure_detail::framed_box<Model> const around(
+        begin, begin + static_cast<std::ptrdiff_t>(count), unit,
+        [&](auto const& x) { return shares(x, used); });
     std::size_t made = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        C const s = side[i] * (1 + 8 * static_cast<double>(count + 4) * Model::unit);
-        if (side_by_side::all(s == C(0.0))) continue;
+    for (std::size_t k = 0; k < centre.size(); ++k) {
+        if (side_by_side::all(around.side(k) == C(0.0))) continue;
+        auto const edge = around.edge(k, lost);
         auto& g = columns[first + made++];
-        for (std::size_t l = 0; l < n; ++l) {
-            C const e = frame.axis[i][l] * s * unit[l];
-            g[l] = Model::constant(e);
-            lost[l] +=
-                (side_by_side::abs(e) * (2 * Model::unit) + Model::tiny) * (1 + 64 * Model::unit);
-        }
+        for (std::size_t i = 0; i < edge.size(); ++i) g[i] = Model::constant(edge[i]);
     }
     columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(first + made),
                   columns.begin() + static_cast<std::ptrdiff_t>(first + count));

@@ -2,6 +2,7 @@
 #ifndef SIVID_MODEL_GRAPH_ARITHMETIC_HPP
 #define SIVID_MODEL_GRAPH_ARITHMETIC_HPP
 
+#include <sivid/number/elementary/detail/tanh_slope.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
@@ -154,6 +155,7 @@ struct proven_arithmetic : interval_traits<I> {
         constexpr double tiny = std::numeric_limits<double>::denorm_min();
         return traits::sign(traits::add(a, traits::bounds(-tiny, tiny)));
     }
+    static I tanh_slope(I const& a) { return number_detail::tanh_slope(a); }
 };
 
 namespace model_detail {
@@ -167,7 +169,7 @@ struct arithmetic_for<double> {
 };
 
 /// 1 - tanh^2 of a, where the arithmetic knows it by itself: the square would count twice what tanh
-/// has lost over a wide range.
+/// has lost over a wide range, and far from 0 the difference would be what tanh was rounded by.
 /// @returns  false where it does not
 template <class A, class T>
 bool find_tanh_slope(T const& a, T& result) {

@@ -3,6 +3,7 @@
 #define SIVID_NUMBER_POLYNOMIAL_UNIVARIATE_TAYLOR_HPP
 
 #include <sivid/number/elementary.hpp>
+#include <sivid/number/elementary/detail/tanh_slope.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <cstddef>
@@ -49,21 +50,23 @@ inline void taylor_coefficients(univariate f, interval const& x, std::size_t ord
         if (order >= 1) y[1] = f == univariate::sin ? T::cos(x) : T::neg(T::sin(x));
         for (std::size_t k = 2; k <= order; ++k) y[k] = T::neg(over(y[k - 2], k * (k - 1)));
         break;
-    case univariate::tan:
-    case univariate::tanh: // y' = 1 +- y^2
-        y[0] = f == univariate::tan ? T::tan(x, undefined) : T::tanh(x);
+    case univariate::tan: // y' = 1 + y^2
+        y[0] = T::tan(x, undefined);
         for (std::size_t k = 0; k < order; ++k) {
-            auto const s = f == univariate::tan ? square(k) : T::neg(square(k));
-            y[k + 1] = over(k == 0 ? T::add(T::point(1.0), s) : s, k + 1);
+            y[k + 1] = over(k == 0 ? T::add(T::point(1.0), square(k)) : square(k), k + 1);
         }
         break;
-    case univariate::sech_squared: { // 1 - tanh^2; each square needs the tangents before it alone
-        taylor_coefficients(univariate::tanh, x, order, y, undefined);
-        auto const first = T::sub(T::point(1.0), T::sqr(y[0]));
-        for (std::size_t k = order; k > 0; --k) y[k] = T::neg(square(k));
-        y[0] = first;
+    case univariate::tanh: // y' = 1 - y^2; all but the value have the slope as a factor
+        y[0] = T::tanh(x);
+        for (std::size_t k = 0; k < order; ++k) {
+            y[k + 1] = over(k == 0 ? number_detail::tanh_slope(x) : T::neg(square(k)), k + 1);
+        }
         break;
-    }
+    case univariate::sech_squared: // 1 - tanh^2; each square needs the tangents before it alone
+        taylor_coefficients(univariate::tanh, x, order, y, undefined);
+        for (std::size_t k = order; k > 0; --k) y[k] = T::neg(square(k));
+        y[0] = number_detail::tanh_slope(x);
+        break;
     case univariate::atan: { // y' (1 + x^2) = 1, with (1 + (x+s)^2) = w0 + 2 x s + s^2
         y[0] = T::atan(x);
         auto const w0 = T::add(T::point(1.0), T::sqr(x));

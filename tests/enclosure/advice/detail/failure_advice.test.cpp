@@ -99,8 +99,9 @@ advised_failure followed(family const& y) {
         if (t.further && t.remedy == said->failure.help && (!best || t.reached > best->reached))
             best = &t;
         if (t.share != 1) continue;
-        double const again = t.remedy == advice::other_set ? reach<Other>(y, t.options, whole)
-                                                           : reach<Run>(y, t.options, whole);
+        bool const other = t.remedy == advice::other_set || t.remedy == advice::higher_degree;
+        double const again =
+            other ? reach<Other>(y, t.options, whole) : reach<Run>(y, t.options, whole);
         CHECK(again == t.reached);
     }
     switch (said->failure.help) {
@@ -191,7 +192,7 @@ TEST_CASE("van der Pol from a wide box: doubletons need another set") {
     auto const alone = explain_failure<doubletons>(*y.f, {}, y.x, y.p, 0, y.end);
     REQUIRE(alone);
     CHECK(alone->failure.help == advice::smaller_box);
-    CHECK(followed<models, better_models>(y).failure.help == advice::other_set);
+    CHECK(followed<models, better_models>(y).failure.help == advice::higher_degree);
 }
 
 TEST_CASE("a stiff problem with a low order: a higher one helps") {
@@ -251,7 +252,7 @@ TEST_CASE("the end of a domain: nothing helps who gets there, another set or par
     CHECK(followed<doubletons, better_models>(y).failure.help == advice::other_set);
     auto const coarse = followed<models, better_models>(y);
     edge(coarse);
-    CHECK(coarse.failure.help == advice::other_set);
+    CHECK(coarse.failure.help == advice::higher_degree);
     auto const alone = explain_failure<doubletons>(*y.f, {}, y.x, y.p, 0, y.end);
     REQUIRE(alone);
     CHECK(alone->failure.help == advice::smaller_box);

@@ -72,12 +72,11 @@ struct bounded {
 };
 
 /// How many values were compared; `sharp` becomes the largest share of a bound that was used.
-int compare(draws& d, support::formula const& f, double radius, double& sharp) {
+int compare(draws& d, support::formula const& f, given const& where, double& sharp) {
     using T = taylor_model<double>;
     graph g;
     auto const root = support::recorded_if_defined(f, g);
     if (!root) return 0;
-    auto const where = random_given(d, radius);
     std::size_t const orders = 1 + d.below(most_orders - 1);
     double const h = std::pow(10.0, d.uniform(-2.5, 0));
     bounded<T> const b(g, *root, where, orders, h);
@@ -151,6 +150,44 @@ int compare(draws& d, support::formula const& f, double radius, double& sharp) {
 
 } // namespace
 
+TEST_CASE("tails far from 0, where functions hardly change and their arguments do") {
+    draws d(414);
+    for (auto const op : {operation::tanh, operation::atan, operation::exp}) {
+        CAPTURE(std::string(name(op)));
+        int compared = 0;
+        double sharp = 0;
+        support::for_each_use(op, {3, 4, 7, -1, -2}, [&](support::formula const& f) {
+            for (int draw = 0; draw < 400; ++draw) {
+                auto where = random_given(d, draw % 3 == 0 ? 0.05 : 0);
+                double const fast = d.uniform(0.1, 20); // all of [0, h] stays on one side
+                for (auto& x : where.x) {
+                    double const away = d.uniform(4, 25);
+                    x[0] = x[0] + interval(op == operation::exp || d.coin() ? -away : away);
+                    x[1] = x[1] * interval(fast);
+                }
+                compared += compare(d, f, where, sharp);
+            }
+        });
+        CHECK(compared > 500);
+        CHECK(sharp > 0.5);
+    }
+}
+
+TEST_CASE(
+    "tails of a saturated function: as small as the function's slope, however long the step") {
+    graph g;
+    expression const x(g, g.leaf(operation::state, 0));
+    given where;
+    where.x[0] = {interval(1e4), interval(1e3), interval(-500.0)}; // from 1e4 to 8.5e3 in [0, 3]
+    where.x[1] = where.x[0];
+    where.rho = {1e-3, 1e-3};
+    for (auto const& e : {tanh(x), exp(-x)}) {
+        bounded<taylor_model<double>> const b(g, e.in(g), where, 3, 3);
+        REQUIRE(b.usable());
+        CHECK(b.tail.tail(b.program.output(0)) < 1e-280);
+    }
+}
+
 TEST_CASE("tails of each operation, at every order") {
     draws d(411);
     for (int i = static_cast<int>(operation::neg); i <= static_cast<int>(operation::max); ++i) {
@@ -161,7 +198,8 @@ TEST_CASE("tails of each operation, at every order") {
         double sharp = 0;
         support::for_each_use(op, {3, 4, 7, -1, -2}, [&](support::formula const& f) {
             for (double const radius : {0.0, 0.0, 0.05}) {
-                for (int draw = 0; draw < 25; ++draw) compared += compare(d, f, radius, sharp);
+                for (int draw = 0; draw < 25; ++draw)
+                    compared += compare(d, f, random_given(d, radius), sharp);
             }
         });
         CHECK(compared > 100);
@@ -176,7 +214,7 @@ TEST_CASE("tails of composed formulas") {
     double sharp = 0;
     for (int round = 0; round < 3000; ++round) {
         auto const f = support::random_formula(d, 2 + d.below(5), d.coin());
-        compared += compare(d, f, round % 3 == 0 ? 0.1 : 0.0, sharp);
+        compared += compare(d, f, random_given(d, round % 3 == 0 ? 0.1 : 0.0), sharp);
     }
     CHECK(compared > 1500);
 }

@@ -330,7 +330,9 @@ private:
             attempt<Run>(advice::higher_order, strongest()))
             return;
         if constexpr (!std::is_void_v<Other>) {
-            if (attempt<Other>(advice::other_set, capped())) return;
+            constexpr bool first_order = std::is_same_v<Run, trajectory<interval>>;
+            if (attempt<Other>(first_order ? advice::other_set : advice::higher_degree, capped()))
+                return;
         }
         if (!is_point()) try_parts();
     }

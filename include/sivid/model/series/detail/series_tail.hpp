@@ -2,7 +2,9 @@
 #ifndef SIVID_MODEL_SERIES_DETAIL_SERIES_TAIL_HPP
 #define SIVID_MODEL_SERIES_DETAIL_SERIES_TAIL_HPP
 
+#include <sivid/model/series/detail/far_tails.hpp>
 #include <sivid/model/series/series.hpp>
+#include <sivid/number/pack/lanes.hpp>
 #include <sivid/number/taylor_model.hpp>
 
 #include <cstddef>
@@ -151,6 +153,29 @@ private:
     [[nodiscard]] scalar movement(std::size_t a) const {
         return above_[place_[a] * stride_ + orders_ - 1] * up;
     }
+    /// \f$ \sum_{1 \le k < M} 2^{k-1} |a_k| h^k \ge h^k |a^{[k]}(s)| \f$ for all k >= 1 and s in [0, h]
+    [[nodiscard]] scalar changes(std::size_t a) const {
+        scalar sum{};
+        double weight = 1;
+        for (std::size_t k = 1; k < orders_; ++k, weight *= 2) {
+            sum += size_[place_[a] * stride_ + k] * weight;
+        }
+        return sum * up;
+    }
+    /// What |a| is at least on [0, h] as far as its polynomial knows.
+    [[nodiscard]] scalar distance(series<T> const& s, std::size_t a) const {
+        return without(rough_bounds(s.coefficient(a, 0)).least(), movement(a));
+    }
+    /// A bound, or in lanes where x is more than 1 another one if that is less.
+    template <class Far>
+    static scalar or_far(scalar const& usual, scalar const& x, Far const& far) {
+        if (!side_by_side::any(x > scalar(1.0))) return usual;
+        auto const other = each_lane<scalar>([&](std::size_t l) {
+            double const least = side_by_side::get(x, l);
+            return least > 1 ? far(least, l) : infinity;
+        });
+        return side_by_side::select(other < usual, other, usual);
+    }
     /// lower - taken, rounded down, both not negative; 0 where that is not positive, or unknown
     static scalar without(scalar const& lower, scalar const& taken) {
         scalar const rest = lower * down - taken * up;
@@ -204,7 +229,7 @@ private:
             own_.push_back(beyond(i.target, i.target));
             break;
         case operation::exp:
-            own_.push_back(over_rest(beyond(i.target, i.a), change(i.a)));
+            own_.push_back(exp_tail(s, i));
             break;
         case operation::log: {
             scalar const lower = without(least(i.a).lower, movement(i.a));
@@ -219,15 +244,18 @@ private:
                 over_rest(beyond(i.companion, i.a) + beyond(i.target, i.a) * moved, moved * moved));
             break;
         }
-        case operation::atan:
-            own_.push_back(beyond(i.companion, i.target) + beyond(i.a, i.a) * change(i.target));
-            break;
-        case operation::tanh: {
-            scalar const moved = change(i.a);
-            own_.push_back(over_rest(beyond(i.companion, i.a) + beyond(i.target, i.target) * moved,
-                                     (whole_[i.target] + scalar(1.0)) * moved));
+        case operation::atan: { // r_y' (1 + a^2) is known
+            scalar const lower = distance(s, i.a);
+            own_.push_back(lower);
+            own_.push_back(
+                quotient(beyond(i.companion, i.target) + beyond(i.a, i.a) * change(i.target),
+                         (scalar(1.0) + lower * lower) * down));
             break;
         }
+        case operation::tanh:
+            own_.push_back(distance(s, i.a));
+            own_.push_back(tanh_tail(i, own_.back()));
+            break;
         case operation::abs:
         case operation::sign:
             own_.push_back(without(least(i.a).least(), movement(i.a)));
@@ -244,6 +272,29 @@ private:
         default:
             break;
         }
+    }
+    /// Of the exponential of a's polynomial.
+    [[nodiscard]] scalar exp_tail(series<T> const& s, instruction const& i) const {
+        scalar const below =
+            without(-rough_bounds(s.coefficient(i.a, 0)).upper, movement(i.a)); // 0 if not negative
+        scalar const moves = changes(i.a);
+        return or_far(over_rest(beyond(i.target, i.a), change(i.a)), below,
+                      [&](double least, std::size_t l) {
+                          return model_detail::far_exp_tail(-least, side_by_side::get(moves, l),
+                                                            orders_);
+                      });
+    }
+    /// Of the tanh of a's polynomial.
+    /// @param least  what that polynomial's absolute value is at least
+    [[nodiscard]] scalar tanh_tail(instruction const& i, scalar const& least) const {
+        scalar const moved = change(i.a);
+        scalar const moves = changes(i.a);
+        return or_far(over_rest(beyond(i.companion, i.a) + beyond(i.target, i.target) * moved,
+                                (whole_[i.target] + scalar(1.0)) * moved),
+                      least, [&](double x, std::size_t l) {
+                          return model_detail::far_tanh_tail(x, side_by_side::get(moves, l),
+                                                             orders_);
+                      });
     }
     /// What `enter` has pushed for the operation at hand, in its order.
     scalar const& own() {
@@ -320,9 +371,17 @@ private:
         }
         case operation::sin:
         case operation::cos:
-        case operation::atan:
-        case operation::tanh:
             return own() + ra;
+        case operation::atan: {
+            scalar const lower = without(own(), ra);
+            return own() + quotient(ra, (scalar(1.0) + lower * lower) * down);
+        }
+        case operation::tanh: {
+            scalar const lower = without(own(), ra);
+            return own() + ra * or_far(scalar(1.0), lower, [](double least, std::size_t) {
+                       return model_detail::steepest_tanh(least);
+                   });
+        }
         case operation::abs:
             return side_by_side::select(without(own(), ra) > scalar(0.0), ra, unknown);
         case operation::sign:

@@ -51,6 +51,9 @@ struct twofold_arithmetic {
     }
     static twofold atan(twofold const& a) { return twofold(traits::atan(a.bounds())); }
     static twofold tanh(twofold const& a) { return twofold(traits::tanh(a.bounds())); }
+    static twofold tanh_slope(twofold const& a) {
+        return twofold(number_detail::tanh_slope(a.bounds()));
+    }
 
     static decided_sign<bool> sign_of(twofold const& a) {
         bool const decided = a.least() > 0;
