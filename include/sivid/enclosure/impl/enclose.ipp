@@ -241,6 +241,9 @@ public:
     [[nodiscard]] box observe_at(double t) const override {
         return said(t, [t](enclosed_motion const& m) { return m.observe_at(t); });
     }
+    [[nodiscard]] box over(double from, double to) const override {
+        return said(to, [=](enclosed_motion const& m) { return m.over(from, to); });
+    }
 
 private:
     template <class Say>
