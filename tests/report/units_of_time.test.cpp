@@ -34,6 +34,13 @@ identification_problem in_milliseconds(identification_problem p) {
     return p;
 }
 
+struct fast : small_campaign::cart {
+    static constexpr auto time_unit = "us";
+};
+struct tired : small_campaign::cart {
+    static constexpr auto time_unit = "hours of sleep";
+};
+
 /// What stands around an s that is a unit: "3 s", "m/s", "[s]", "\"unit\": \"s\""; empty: none
 /// does.
 std::string seconds_in(std::string_view text) {
@@ -101,15 +108,9 @@ TEST_CASE("parameters of effects are in the unit of time of their model") {
 }
 
 TEST_CASE("a functor declares its unit of time") {
-    struct fast : small_campaign::cart {
-        static constexpr auto time_unit = "us";
-    };
     CHECK(record_model(fast{}).about.time_unit == "us");
     CHECK(record_model(small_campaign::cart{}).about.time_unit == "s");
-    struct wrong : small_campaign::cart {
-        static constexpr auto time_unit = "hours of sleep";
-    };
-    CHECK_THROWS_WITH(record_model(wrong{}),
+    CHECK_THROWS_WITH(record_model(tired{}),
                       ContainsSubstring("'hours of sleep' is no unit of time"));
 }
 

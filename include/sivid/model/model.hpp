@@ -183,9 +183,7 @@ concept observed_model = requires(M const m, expression t, states_of<M, expressi
 /// A dynamic model: its equations, explicit or implicit, and its outputs are member templates on
 /// the scalar, free of side effects; `name`, `states`, `inputs`, `channels`, `constants` say what
 /// the numbers mean. A further member template, `derived`, is optional: constants that are
-/// functions of others. So is the unit of time, `static constexpr auto time_unit = "ms";`: without
-/// it times are in seconds. All that is printed of times and rates is in that unit, and data sets
-/// in another one are converted.
+/// functions of others. So is the unit of time, `time_unit = "ms"` for instance; else it is "s".
 template <class M>
 concept dynamic_model = requires {
     M::states;
@@ -226,16 +224,14 @@ struct model_description {
     std::vector<item> inputs;
     std::vector<item> channels;
     std::vector<constant> constants;
-    std::string time_unit = "s"; ///< of t, of delays, and below rates
+    std::string time_unit = "s"; ///< of t; texts of times and rates name it, data are converted
 };
 
 enum class memory_kind {
     delay, ///< by so much time, in the model's unit
     play,  ///< of this half-width, in the unit of the input (see measurement/played_signal.hpp)
-    /// Of this size, in that unit per the model's unit of time (see
-    /// measurement/limited_signal.hpp).
-    rate_limit,
-    drift ///< of the clock: a delay by this share of the time since the begin
+    rate_limit, ///< of that, per the model's unit of time (see measurement/limited_signal.hpp)
+    drift       ///< of the clock: a delay by this share of the time since the begin
 };
 
 /// Whether it moves a signal in time and changes nothing else.
@@ -332,18 +328,8 @@ template <class Taken>
                                                      std::span<quantity const> channels,
                                                      std::span<constant_quantity const> constants,
                                                      std::string_view time_unit = "s");
-/// The unit of time that a functor declares.
-template <class M>
-inline constexpr std::string_view time_unit_of = [] {
-    if constexpr (requires { M::time_unit; }) {
-        return std::string_view(M::time_unit);
-    } else {
-        return std::string_view("s");
-    }
-}();
 /// Adds a relation between constants to a recorded model.
-/// @throws std::invalid_argument when the constant is unknown, stands twice, or is not a function
-/// of
+/// @throws std::invalid_argument when the constant is unknown, stands twice, or is no function of
 ///         constants before it, and when its nominal value is not what the formula gives to 0.1 %
 SIVID_DECL void add_derived(recorded_model& model, std::string_view name, expression const& value);
 /// Solves the equations of an implicit model.
@@ -356,15 +342,15 @@ SIVID_DECL void add_derived(recorded_model& model, std::string_view name, expres
 } // namespace model_detail
 
 /// Runs the functor once on the recording scalar.
-/// @throws std::invalid_argument  where two states, inputs, channels or constants have one name,
-///         and for a unit of time that is no unit
+/// @throws std::invalid_argument  as `described`
 /// @guarantee evaluating the graph with a sound interval type encloses the functor's real value.
 template <dynamic_model M>
 [[nodiscard]] recorded_model record_model(M const& model = {}) {
+    std::string_view time = "s";
+    if constexpr (requires { M::time_unit; }) time = M::time_unit;
     recorded_model result;
-    result.about =
-        model_detail::described(std::string_view(M::name), M::states, M::inputs, M::channels,
-                                M::constants, model_detail::time_unit_of<M>);
+    result.about = model_detail::described(std::string_view(M::name), M::states, M::inputs,
+                                           M::channels, M::constants, time);
     auto& g = result.g;
     auto const leaves = [&g]<std::size_t N>(operation op, std::array<expression, N>& out) {
         for (std::size_t i = 0; i < N; ++i) out[i] = expression(g, g.leaf(op, i));
