@@ -295,12 +295,13 @@ tally draw(std::uint64_t seed, std::size_t enough) {
     draws d(seed);
     tally done;
     auto const systems = all_systems();
-    while (done.all() < enough) {
+    // Derivatives cost most and come least often.
+    while (done.all() < enough || done.compared["derivatives of Taylor models"] < 12) {
         for (auto const& s : systems) all_ways(s, d, done);
     }
     for (auto const& [way, count] : done.compared) {
         CAPTURE(way, count);
-        CHECK(count >= 12); // derivatives cost most and come least often
+        CHECK(count >= 12);
         UNSCOPED_INFO(way << ": " << count);
     }
     return done;
@@ -309,7 +310,7 @@ tally draw(std::uint64_t seed, std::size_t enough) {
 } // namespace
 
 TEST_CASE("every stepper, set and number type contains the truth") {
-    auto const done = draw(401, 4000);
+    auto const done = draw(401, 3000);
     CHECK(done.compared.size() >= 8);
 }
 

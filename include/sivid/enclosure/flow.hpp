@@ -53,10 +53,10 @@ public:
     /// The state's own range, in which it is measured where norms are taken over states.
     [[nodiscard]] double own_range(std::size_t i) const {
         double const limit = model_.about.states[i].limit;
-        return limit > 0 && limit < 1e100 ? limit : 1000; // else it is no range
+        return limit > 0 && limit < 1e100 ? limit : 1e6; // else it is no range
     }
-    /// A thousandth of it: what is smaller counts as so large, for tolerances.
-    [[nodiscard]] double small(std::size_t i) const { return 1e-3 * own_range(i); }
+    /// A millionth of it: what is smaller counts as so large, for tolerances. Ranges are generous.
+    [[nodiscard]] double small(std::size_t i) const { return 1e-6 * own_range(i); }
     /// Whether \f$ \partial x_i(t) / \partial (x_0, p)_c \f$ can be non-zero.
     [[nodiscard]] bool sensitive(std::size_t i, std::size_t c) const {
         return sensitive_[i * (states() + parameters()) + c];

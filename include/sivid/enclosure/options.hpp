@@ -29,7 +29,7 @@ struct enclosure_options {
     std::optional<tableau> method = std::nullopt;
     /// Largest truncation error of one step in state i, as a half-width:
     /// tolerance * (size of x_i) + relative_tolerance * width of the enclosure of x_i, where the
-    /// size is the largest |x_i| so far, or a thousandth of the state's own range if that is more.
+    /// size is the largest |x_i| so far, or a millionth of the state's own range if that is more.
     double tolerance = 1e-13;
     double relative_tolerance = 1e-4;
     /// Steps are never shorter than this share of the span, except where an input's knot or the end

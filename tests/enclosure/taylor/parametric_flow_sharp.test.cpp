@@ -33,6 +33,7 @@ enclosure_options strict(std::size_t order, double tolerance) {
     o.order = order;
     o.tolerance = tolerance;
     o.relative_tolerance = 0;
+    o.minimum_step = 1e-7; // of a span of 1: at low orders no step meets the tolerance
     return o;
 }
 

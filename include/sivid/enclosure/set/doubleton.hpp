@@ -107,12 +107,10 @@ struct doubleton {
     /// @param image  encloses F(m, centre of p)
     /// @param j      encloses \f$ (J_x, J_p) \f$, n x (n + parameters)
     /// @param direct a box that contains the image as well; the new hull is the intersection
-    /// @param ranges of the states, for the frame (`make_frame`)
     /// @guarantee for every \f$ r_0 \f$ and every member x of the set, F(x, p) is in the new set.
     [[nodiscard]] doubleton mapped(double to, basic_box<I> const& image,
                                    interval_matrix<I> const& j, basic_box<I> const& direct,
-                                   basic_box<I> const& deviation,
-                                   std::vector<double> const& ranges = {}) const {
+                                   basic_box<I> const& deviation) const {
         using traits = interval_traits<I>;
         auto const n = image.size();
         auto const columns = deviation.size();
@@ -145,7 +143,12 @@ struct doubleton {
         for (std::size_t i = 0; i < n; ++i) weights[i] = traits::mag(remainder[i]);
         next.largest = largest;
         next.note_sizes(direct);
-        auto frame = make_frame<I>(approximate_mid(turned), weights, ranges);
+        std::vector<double> sizes(n); // a frame that no unit of a state decides on
+        for (std::size_t i = 0; i < n; ++i) {
+            double const r = traits::rad(direct[i]);
+            sizes[i] = r > 0 && std::isfinite(r) ? r : 1;
+        }
+        auto frame = make_frame<I>(approximate_mid(turned), weights, sizes);
         next.axes = std::move(frame.axes);
         next.remainder =
             add(product(frame.inverse, rest), product(product(frame.inverse, turned), remainder));

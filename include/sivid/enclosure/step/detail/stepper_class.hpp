@@ -104,11 +104,6 @@ private:
     [[nodiscard]] I span(double from, double to) const {
         return traits::sub(traits::point(to), traits::point(from));
     }
-    [[nodiscard]] std::vector<double> own_ranges() const {
-        std::vector<double> result;
-        for (std::size_t i = 0; i < flow_->states(); ++i) result.push_back(flow_->own_range(i));
-        return result;
-    }
     [[nodiscard]] double allowed(basic_box<I> const& x, std::size_t i) const {
         return options_.tolerance * size_[i] +
                options_.relative_tolerance * traits::width(x[i]);

@@ -65,7 +65,7 @@ doubleton<I> stepper<I>::map_long(tube_step<I> const& step, double to) {
     auto const direct = perturbed(step, to, step.tube);
     if (!map) return restarted(to, direct, step.start.largest);
     return step.start.mapped(to, perturbed(step, to, map->image), map->derivative, direct,
-                             ensemble_->deviation, own_ranges());
+                             ensemble_->deviation);
 }
 
 template <class I>
@@ -124,7 +124,7 @@ doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
         return restarted(to, direct, step.start.largest);
     }
     return step.start.mapped(to, perturbed(step, to, centre_image(step, s)),
-                             flow_derivative(step, s), direct, deviation, own_ranges());
+                             flow_derivative(step, s), direct, deviation);
 }
 
 } // namespace sivid
