@@ -329,9 +329,7 @@ check_outputs(identification_problem const& problem, stored_identification const
         for (std::size_t e = 0; e < rows.size(); ++e) {
             auto own = problem.experiments[e];
             own.inputs = nominal(std::move(own.inputs));
-            // Finer than the tubes of the table, whose steps serve pictures.
-            how.tolerance = 1e-15;
-            how.maximum_step = (own.end() - own.begin) / 480;
+            how.tolerance = 1e-15; // fewer steps than the tubes of the table, and finer ones
             plain_run<Fast> fast(problem.model, problem.choice, own, how);
             auto says =
                 io_detail::enclosed_by(rows[e], fast, boxes->starts[e], boxes->parameters, in_time);
