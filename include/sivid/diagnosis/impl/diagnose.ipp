@@ -103,11 +103,9 @@ private:
     }
     void know_gap() {
         auto& d = run_.result;
-        auto const& bound = run_.base_bound;
-        d.inflation = bound.range;
-        d.witness.reset();
-        if (bound.witness)
-            d.witness = named(run_.base, bound.witness->parameters, bound.witness->starts);
+        d.inflation = run_.base_bound.range;
+        if (auto const& w = run_.base_bound.witness)
+            d.witness = named(run_.base, w->parameters, w->starts);
         d.gap = gap_of(d.inflation);
         if (d.gap != gap_verdict::none) return;
         // A better fit was found: nothing is missing, and what led to a proof does not hold.

@@ -77,6 +77,7 @@ inline bool is_left(subpaving const& paving, box const& x) {
 
 /// A state to resume from must agree with the witness and with its own boxes' middles.
 /// @param fitted  the guess, in the sides that are searched
+/// @param limit   for runs at the middles
 /// @throws std::invalid_argument
 inline void require_true_state(identification_state const& state,
                                identification_problem const& posed,
@@ -88,9 +89,7 @@ inline void require_true_state(identification_state const& state,
             resumed_labels::refuse("its windows exclude parameters that explain the data");
     }
     auto const starts = known.guess ? starts_of(*known.guess, posed) : std::vector<box>{};
-    // A tenth of what the search has taken, should there be so much left.
-    work_limit const share(std::min(0.1 * state.search.seconds, limit.seconds()));
-    resumed_labels(posed, test, starts).require_true(state.search, share);
+    resumed_labels(posed, limited(test, limit), starts).require_true(state.search, limit);
 }
 
 /// A verified witness and the exclusion of its parameters contradict each other: one of them is no
@@ -118,6 +117,9 @@ SIVID_DECL identification identify(identification_problem const& problem,
     double const earlier =
         options.resume ? options.resume->seconds + options.resume->search.seconds : 0;
     work_limit limit(options.search.seconds - earlier, options.search.keep_going);
+    // Of the budget, whatever a state says that was spent.
+    double const for_labels = 0.05 * options.search.seconds;
+    auto const label_test = options.test;
     options.test = limited(std::move(options.test), limit);
     auto const working = paving_detail::as_searched(problem, options.algorithm);
     std::string asked_for; // only states know it
@@ -172,8 +174,9 @@ SIVID_DECL identification identify(identification_problem const& problem,
                           windows->by_observers};
     }
     if (options.resume)
-        paving_detail::require_true_state(*options.resume, posed, options.test, result, fitted,
-                                          limit);
+        paving_detail::require_true_state(
+            *options.resume, posed, paving_detail::as_searched(label_test, options.algorithm),
+            result, fitted, work_limit(for_labels, options.search.keep_going));
     double const spent = limit.spent() + (options.resume ? options.resume->seconds : 0);
     options.search.seconds = std::max(0.0, options.search.seconds - spent);
     auto search = options.search;

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <limits>
 #include <map>
 #include <optional>
@@ -243,7 +244,15 @@ inline std::optional<shown_boxes> boxes_of_shown(identification_problem const& p
     return result;
 }
 
-/// Whether the outputs over the boxes lie within the rows: by runs over ever smaller parts.
+/// What a row states and a few floats more: an enclosure at a point is hardly wider than rounding.
+template <class I>
+I stated_with_rounding(interval const& x) {
+    auto const more = [](double end) { return std::isfinite(end) ? cost_of_rounding(end, 64) : 0; };
+    return interval_traits<I>::bounds(x.lower() - more(x.lower()), x.upper() + more(x.upper()));
+}
+
+/// Whether the outputs over the boxes lie within the rows: by runs over ever smaller parts, the
+/// largest first.
 /// @returns  refuted where a part has an output that is certainly outside
 template <class I, class KeepGoing>
 check_finding::outcome enclosed_by(std::vector<output_row> const& rows, plain_run<I>& run,
@@ -251,14 +260,15 @@ check_finding::outcome enclosed_by(std::vector<output_row> const& rows, plain_ru
                                    KeepGoing const& keep_going) {
     using traits = interval_traits<I>;
     using outcome = check_finding::outcome;
-    std::vector<box> waiting{parameters};
+    auto result = outcome::verified;
+    std::deque<box> waiting{parameters};
     while (!waiting.empty()) {
-        auto const part = std::move(waiting.back());
-        waiting.pop_back();
+        auto const part = std::move(waiting.front());
+        waiting.pop_front();
         auto const known = run(starts, part);
         bool all = true;
         for (std::size_t k = 0; k < rows.size(); ++k) {
-            auto const stated = in<I>(rows[k].model);
+            auto const stated = stated_with_rounding<I>(rows[k].model);
             bool const there = k < known.outputs.size() && known.outputs[k].defined;
             if (there && traits::disjoint(known.outputs[k].value, stated)) return outcome::refuted;
             bool const unbounded =
@@ -266,13 +276,17 @@ check_finding::outcome enclosed_by(std::vector<output_row> const& rows, plain_ru
             all = all && (unbounded || (there && traits::subset(known.outputs[k].value, stated)));
         }
         if (all) continue;
-        auto const side = widest_side(part, parameters, 1e-6);
-        if (!side || !keep_going()) return outcome::undecided;
+        if (!keep_going()) return outcome::undecided;
+        auto const side = widest_side(part, parameters, 1.0 / 64);
+        if (!side) {
+            result = outcome::undecided;
+            continue;
+        }
         auto [low, high] = bisect(part, *side, mid(part[*side]));
         waiting.push_back(std::move(low));
         waiting.push_back(std::move(high));
     }
-    return outcome::verified;
+    return result;
 }
 
 } // namespace io_detail
@@ -283,10 +297,9 @@ check_finding::outcome enclosed_by(std::vector<output_row> const& rows, plain_ru
 /// @tparam Exact   in which a point is followed once more where Fast does not prove it
 /// @cost  a validated run of each experiment, more over parts of a box where one proves nothing
 template <class Exact, class Fast>
-[[nodiscard]] check_finding check_outputs(identification_problem const& problem,
-                                          stored_identification const& stored,
-                                          io_detail::witness_readings const& witness,
-                                          enclosure_options const& how, double seconds) {
+[[nodiscard]] check_finding
+check_outputs(identification_problem const& problem, stored_identification const& stored,
+              io_detail::witness_readings const& witness, enclosure_options how, double seconds) {
     using outcome = check_finding::outcome;
     std::string const what = "outputs";
     if (!stored.shown) {
@@ -316,6 +329,7 @@ template <class Exact, class Fast>
         for (std::size_t e = 0; e < rows.size(); ++e) {
             auto own = problem.experiments[e];
             own.inputs = nominal(std::move(own.inputs));
+            how.tolerance = 1e-15; // fewer steps than the tubes of the table, and finer ones
             plain_run<Fast> fast(problem.model, problem.choice, own, how);
             auto says =
                 io_detail::enclosed_by(rows[e], fast, boxes->starts[e], boxes->parameters, in_time);
