@@ -82,7 +82,8 @@ TEST_CASE("stated equations of a mass matrix contain the truth, seen by angles a
         for (std::size_t equation : {2U, 3U}) {
             CHECK(b.relations.bounded(equation));
             for (bool const middle : {false, true}) {
-                auto const rows = b.relations.windows(equation, middle, {motion}, 0.2, 2, {});
+                auto const rows =
+                    b.relations.windows(equation, middle, {motion}, {.shortest_gaps = 2});
                 CHECK(rows.size() > 20);
                 for (auto const& w : rows) {
                     INFO(n << ": " << equation << ", " << w.from << " to " << w.to);
@@ -101,7 +102,7 @@ TEST_CASE("stated equations show a torque that is missing") {
     auto e = record_of_links(d, m, truth, 2, 0.001, noise::uniform);
     auto const motion = b.motion_of(e);
     std::size_t shown = 0;
-    for (auto const& w : b.relations.windows(2, true, {motion}, 0.3, 2, {})) {
+    for (auto const& w : b.relations.windows(2, true, {motion}, {.shortest_gaps = 3})) {
         auto const left = b.left_of(w, 2, true, truth);
         shown += contains(left + 0.1 * w.length, 0) ? 0U : 1U; // a tenth of a newton metre
     }
@@ -133,7 +134,7 @@ TEST_CASE("windows from a known start contain the truth, whatever the rate stand
             e.initial[i] = around(start[i] + d.uniform(-0.009, 0.009), 0.01);
         stated_bench own(m, prior, {{1, 0}});
         auto const motion = own.motion_of(e);
-        for (auto const& w : own.relations.windows(1, false, {motion}, 0.5, 2, {})) {
+        for (auto const& w : own.relations.windows(1, false, {motion}, {.shortest_gaps = 5})) {
             INFO(n << ": " << w.from << " to " << w.to);
             auto const left = own.left_of(w, 1, false, p);
             CHECK(contains(left, 0));
@@ -166,7 +167,7 @@ TEST_CASE("accelerations of other states are summed by parts, too") {
             auto const e = measured(d, "S", truth, inputs, {0, 1}, 0.01, static_cast<noise>(n % 4));
             stated_bench b(m, prior, {{2, 0}, {3, 1}});
             auto const motion = b.motion_of(e);
-            auto const rows = b.relations.windows(equation, true, {motion}, 0.5, 4, {});
+            auto const rows = b.relations.windows(equation, true, {motion}, {.shortest_gaps = 5});
             CHECK(rows.size() > 20);
             bool shows = false; // a rate that was left out
             for (auto const& w : rows) {
@@ -204,7 +205,7 @@ TEST_CASE("inputs that jump and are known to a bound stay within what stated equ
         stated_bench b(m, prior, {{1, 0}});
         auto const motion = b.motion_of(e);
         for (bool const middle : {false, true}) {
-            for (auto const& w : b.relations.windows(1, middle, {motion}, 0.5, 2, {})) {
+            for (auto const& w : b.relations.windows(1, middle, {motion}, {.shortest_gaps = 5})) {
                 INFO(n << ": " << w.from << " to " << w.to);
                 CHECK(contains(b.left_of(w, 1, middle, p), 0));
             }
@@ -218,5 +219,7 @@ TEST_CASE("windows end when they are told to") {
     stated_bench b(m, prior_of_links(0.05), {{2, 0}, {3, 1}});
     auto const motion =
         b.motion_of(record_of_links(d, m, {0.6, 0.12, 0.15, 0.3, 0.2}, 1, 0.002, noise::uniform));
-    CHECK(b.relations.windows(2, true, {motion}, 0.2, 1, [] { return false; }).empty());
+    CHECK(
+        b.relations.windows(2, true, {motion}, {.shortest_gaps = 2, .go_on = [] { return false; }})
+            .empty());
 }

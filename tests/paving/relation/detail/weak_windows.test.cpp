@@ -70,7 +70,7 @@ TEST_CASE("windows under a bump contain the truth without the rate's measurement
         auto const law =
             declare_variations(b.bound, {find_rate_scales(b.bound, b.prior, e, channels)});
         auto const motion = observe_motion(b.bound, b.prior, e, channels, {law.front(), {}, {}}, 4);
-        auto const windows = weak->over(motion, 0, 0.5, 4);
+        auto const windows = weak->over(motion, 0, {.shortest_gaps = 5});
         CHECK(windows.size() > 20);
         for (auto const& w : windows) {
             auto sum = w.a.back();

@@ -287,8 +287,7 @@ private:
     }
     /// By a tenth, and by more than rounding moves it: at rest at 0, by hardly anything.
     [[nodiscard]] static interval grown(interval const& x, interval const& most) {
-        double const rest = is_bounded(most) ? 1e-18 * width(most) : 0;
-        double const more = 0.1 * width(x) + 1e-12 * mag(x) + rest;
+        double const more = 0.1 * width(x) + 1e-12 * mag(x) + 1e-290;
         return agreed(most, traits::add(x, traits::bounds(-more, more)));
     }
     [[nodiscard]] std::optional<interval> sample_at(std::size_t i, double t) const {
