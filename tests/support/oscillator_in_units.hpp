@@ -175,8 +175,8 @@ inline sivid::experiment experiment_in(units const& in, missing const& real, siz
 
 inline sivid::recorded_model model_in(units const& in) {
     auto model = sivid::record_model(oscillator{});
-    model.about.states[0].limit *= in.state;
-    model.about.states[1].limit *= in.speed();
+    model.about.states[0].limit = model.about.states[0].limit * in.state;
+    model.about.states[1].limit = model.about.states[1].limit * in.speed();
     return model;
 }
 
