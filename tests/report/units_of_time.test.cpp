@@ -53,7 +53,8 @@ std::string seconds_in(std::string_view text) {
         auto const digit = [&](std::size_t back) {
             return i >= back && std::isdigit(static_cast<unsigned char>(text[i - back])) != 0;
         };
-        bool const unit = before.ends_with('/') || before.ends_with('[') ||
+        bool const unit = before.ends_with('/') ||
+                          (before.ends_with('[') && text.substr(i + 1).starts_with(']')) ||
                           before.ends_with("/(") || (before.ends_with(' ') && digit(2)) ||
                           (before.ends_with("\xC2\xA0") && digit(3)) ||
                           before.ends_with("unit\": \"") || before.ends_with("unit=\"");
