@@ -60,6 +60,7 @@ with_fresh_starts(parametric_set<taylor_model<double>> const& set, std::size_t k
             g[i] = model::constant(c);
         }
     }
+    if (moving.empty()) moving.emplace_back(n); // a set that does not vary but by parameters
     framed_box<model> const around(moving.begin(), moving.end(), unit,
                                    [](auto const& squares) { return squares; });
     parametric_set<model> result(n, shape);
