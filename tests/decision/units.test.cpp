@@ -75,8 +75,8 @@ verification checked(units const& in, double most) {
     auto p = motion_in(in, 4);
     std::array<char, 64> text{};
     auto const end = std::to_chars(text.data(), text.data() + text.size(), most * in.state).ptr;
-    auto const what = parse_requirement(
-        "always(abs(x) < " + std::string(text.data(), end) + ")", p.model, p.end);
+    auto const what =
+        parse_requirement("always(abs(x) < " + std::string(text.data(), end) + ")", p.model, p.end);
     return verify(p, what, {}, by_parts(100));
 }
 

@@ -36,7 +36,7 @@ std::vector<way> ways() {
 
 struct outcome {
     std::size_t steps = 0;
-    double until = 0; ///< [s]
+    double until = 0;    ///< [s]
     double x = 0, v = 0; ///< widths at the end, in base units
 };
 
@@ -66,7 +66,9 @@ void compare(std::vector<units> const& all, double seconds) {
                                    std::ldexp(1.0, std::ilogb(in.state)) == in.state;
                 auto const found = enclosed(in, how, spread, seconds);
                 CAPTURE(how.name, spread, in.name, in.state, in.input);
-                auto const apart = [](std::size_t a, std::size_t b) { return a < b ? b - a : a - b; };
+                auto const apart = [](std::size_t a, std::size_t b) {
+                    return a < b ? b - a : a - b;
+                };
                 CHECK(apart(found.steps, base.steps) <= (exact ? 0u : 2u));
                 CHECK(std::abs(found.until - base.until) <= 1e-9 * base.until);
                 // Roundings alone make what has no spread wide, and fall differently.

@@ -4,8 +4,8 @@
 
 #include "support/catch.hpp"
 #include "support/models.hpp"
-#include "support/real_functions.hpp"
 #include "support/random.hpp"
+#include "support/real_functions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -85,8 +85,8 @@ TEST_CASE("a bound of a perturbation does not hang on the units of time and stat
             auto const f = support::flow_of(model);
             perturbed_step<interval> step(*f);
             step.set_rate_bound({0, 0.1 * speed / second});
-            REQUIRE(prove(step, second, box{between(-length, length),
-                                            between(-3 * speed, 3 * speed)}));
+            REQUIRE(
+                prove(step, second, box{between(-length, length), between(-3 * speed, 3 * speed)}));
             CHECK(step.at_end()[0] <= 1.1 * length * 0.1 / 9 * (1 - std::cos(3.0)));
             CHECK(step.at_end()[1] <= 1.1 * speed * 0.1 / 3 * (2 - std::sin(3.0)));
         }

@@ -237,8 +237,9 @@ private:
                 spread = std::max(spread, over_step.spread() / flow_->own_range(i));
                 size = std::max(size, over_step.polynomial_norm() / flow_->own_range(i));
             }
-            double const allowed = std::max(
-                options_.tolerance * size + options_.relative_tolerance * spread, entry::unit * size);
+            double const allowed =
+                std::max(options_.tolerance * size + options_.relative_tolerance * spread,
+                         entry::unit * size);
             if (tail > 0) worst = std::max(worst, tail / allowed);
         }
         // The next step's order follows the truncation, as far as it exceeds a rounding: a

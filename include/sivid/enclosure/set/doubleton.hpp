@@ -55,10 +55,10 @@ struct ensemble {
 template <class I>
 struct doubleton {
     double time = 0;
-    std::vector<double> centre; ///< m
-    Eigen::MatrixXd shape;      ///< C, n x (n + parameters)
-    Eigen::MatrixXd axes;       ///< B, n x n
-    basic_box<I> remainder;     ///< [r]
+    std::vector<double> centre;  ///< m
+    Eigen::MatrixXd shape;       ///< C, n x (n + parameters)
+    Eigen::MatrixXd axes;        ///< B, n x n
+    basic_box<I> remainder;      ///< [r]
     basic_box<I> hull;           ///< a box that contains the set
     std::vector<double> largest; ///< about the largest |x_i| so far; no proof rests on it
 

@@ -82,8 +82,8 @@ private:
         auto const other = bound_linear_perturbation(measured(middle), begin, end, h);
         for (std::size_t i = 0; i < n; ++i) {
             C const least = lane_traits<C>::min(result[i], other[i]) * unit_of(i) + tiny;
-            result[i] = lane_traits<C>::select(usual, least,
-                                               C(std::numeric_limits<double>::infinity()));
+            result[i] =
+                lane_traits<C>::select(usual, least, C(std::numeric_limits<double>::infinity()));
         }
         return result;
     }

@@ -67,8 +67,7 @@ inline explaining_motion enclose_motion(identification_problem const& problem, m
                                          region_of_runs{motion.starts[e], motion.parameters});
         double const end = s.end();
         enclosure_options options;
-        if (pieces > 0)
-            options.maximum_step = (end - s.begin) / static_cast<double>(pieces);
+        if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);
         options.maximum_steps = steps_for(s, pieces);
         options.keep_going = keep_going;
         motion.flows.push_back(f);

@@ -300,12 +300,10 @@ private:
         if (smooth.bounds.empty()) return nullptr;
         auto inputs = nominal(posed.inputs);
         for (double const bound : smooth.bounds) {
-            inputs.emplace_back(
-                sampled_signal({posed.begin}, {0.0}, interpolation::hold, {bound}));
+            inputs.emplace_back(sampled_signal({posed.begin}, {0.0}, interpolation::hold, {bound}));
         }
-        return std::make_unique<flow const>(
-            smooth.model, problem_->choice, inputs,
-            region_of_runs{posed.initial, problem_->prior});
+        return std::make_unique<flow const>(smooth.model, problem_->choice, inputs,
+                                            region_of_runs{posed.initial, problem_->prior});
     }
     /// Knots of the inputs and measurements until the last of them: each ends a step.
     [[nodiscard]] std::size_t stops(std::size_t e) const {

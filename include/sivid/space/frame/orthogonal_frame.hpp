@@ -79,7 +79,8 @@ template <class I>
                                                          std::vector<double> const& weights);
 
 /// `orthogonal_axes` with a proven inverse; the identity where that fails.
-/// @param sizes  of the rows, above 0: axes are orthogonal where rows are measured in them, whatever
+/// @param sizes  of the rows, above 0: axes are orthogonal where rows are measured in them,
+/// whatever
 ///   the rows' units; none: as they are
 /// @guarantee  `inverse` encloses the inverse of `axes`; no property of `a` is trusted.
 template <class I>

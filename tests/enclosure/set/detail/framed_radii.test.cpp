@@ -55,7 +55,8 @@ public:
         std::vector<double> weights(inside_.rows(), 0.0);
         for (std::size_t c = 0; c < inside_.cols(); ++c) { // each column in its own unit
             double most = 0;
-            for (std::size_t i = 0; i < inside_.rows(); ++i) most = std::max(most, mag(inside_(i, c)));
+            for (std::size_t i = 0; i < inside_.rows(); ++i)
+                most = std::max(most, mag(inside_(i, c)));
             for (std::size_t i = 0; i < inside_.rows() && most > 0; ++i)
                 weights[i] = std::max(weights[i], mag(inside_(i, c)) / most);
         }

@@ -105,8 +105,7 @@ private:
         return traits::sub(traits::point(to), traits::point(from));
     }
     [[nodiscard]] double allowed(basic_box<I> const& x, std::size_t i) const {
-        return options_.tolerance * size_[i] +
-               options_.relative_tolerance * traits::width(x[i]);
+        return options_.tolerance * size_[i] + options_.relative_tolerance * traits::width(x[i]);
     }
     /// What a step across a kink may lose: a small share of what the set spans, besides what is
     /// lost anyway since the slopes differ on its two sides.

@@ -21,9 +21,8 @@ double dissipative_step<I>::stiffness(double t, basic_box<I> const& x) {
     std::vector<double> rows(flow_->states(), 0.0);
     for (auto const& e : flow_->entries()) {
         if (e.column >= rows.size()) continue;
-        rows[e.row] +=
-            traits::mag(jacobian_.output(e.output, 0)) *
-            (flow_->own_range(e.column) / flow_->own_range(e.row));
+        rows[e.row] += traits::mag(jacobian_.output(e.output, 0)) *
+                       (flow_->own_range(e.column) / flow_->own_range(e.row));
     }
     double largest = 0;
     for (double const r : rows) largest = std::max(largest, r);

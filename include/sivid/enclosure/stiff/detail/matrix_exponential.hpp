@@ -81,8 +81,8 @@ namespace enclosure_detail {
 /// @cost  O((K + m) n^3)
 /// @ref   Higham, Functions of Matrices (2008), section 10.3
 template <class I>
-[[nodiscard]] std::optional<interval_matrix<I>>
-enclose_exponential(Eigen::MatrixXd a, I const& h, std::size_t terms = 16) {
+[[nodiscard]] std::optional<interval_matrix<I>> enclose_exponential(Eigen::MatrixXd a, I const& h,
+                                                                    std::size_t terms = 16) {
     using traits = interval_traits<I>;
     auto const n = static_cast<std::size_t>(a.rows());
     double size = 0;

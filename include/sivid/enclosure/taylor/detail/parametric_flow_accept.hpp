@@ -147,8 +147,8 @@ void parametric_flow<Model, Centre>::accept(mask moved, C const& to, std::size_t
     stale_ = true;
 }
 
-/// The order of V follows what its Lagrange term adds to the reach: that may be a share of the reach
-/// itself, smaller where this is still less than what the step may lose anyway.
+/// The order of V follows what its Lagrange term adds to the reach: that may be a share of the
+/// reach itself, smaller where this is still less than what the step may lose anyway.
 template <class Model, class Centre>
 void parametric_flow<Model, Centre>::adapt_flow_order(mask moved, std::size_t order,
                                                       std::size_t flow_order,

@@ -3,8 +3,8 @@
 #define SIVID_PAVING_JUDGE_DETAIL_KINK_RANGES_HPP
 
 /// @file
-/// How large the arguments of kinks may be, and how finely an experiment is measured: by both, kinks
-/// are rounded off by little (`smoothed`), whatever the units.
+/// How large the arguments of kinks may be, and how finely an experiment is measured: by both,
+/// kinks are rounded off by little (`smoothed`), whatever the units.
 
 #include <sivid/measurement/record.hpp>
 #include <sivid/model/change/added_start.hpp>
