@@ -87,13 +87,24 @@ std::vector<mp> exact_coefficients(univariate f, mp const& x) {
             y.push_back(k % 2 == 1 ? value : mp(-value));
             break;
         }
+        case univariate::reciprocal: {
+            mp const size = 1 / pow(x, static_cast<int>(k) + 1);
+            y.push_back(k % 2 == 1 ? mp(-size) : size);
+            break;
+        }
+        case univariate::sqrt: { // binomial(1/2, k) x^(1/2 - k)
+            mp value = sqrt(x);
+            for (unsigned j = 0; j < k; ++j) value *= (mp(0.5) - j) / ((j + 1) * x);
+            y.push_back(value);
+            break;
+        }
         }
     }
     return y;
 }
 
 interval somewhere(draws& d, univariate f, double radius) {
-    if (f == univariate::log) {
+    if (f == univariate::log || f == univariate::reciprocal || f == univariate::sqrt) {
         double const c = std::exp(d.uniform(-8, 8));
         double const r = c * d.uniform(0, std::fmin(radius, 0.999));
         return interval_traits<interval>::bounds(c - r, c + r);
