@@ -36,7 +36,8 @@ namespace sivid {
 ///   ends before it begins
 /// @guarantee  every trajectory from the box of starts, for every parameter in its box and inputs
 ///   within their error bounds, lies in what `at` and `over` return
-/// @cost  one integration, or up to three for points and where one ends early; `at` and `observe_at` cost a step. With Taylor models they cost what it
+/// @cost  one integration, or up to three for points and where one ends early; `at` and
+/// `observe_at` cost a step. With Taylor models they cost what it
 ///   takes to set up a run and at most five steps, or 1/32 of all steps; up to 64 sets are kept for
 ///   them, with n states about \f$ 13 n^2 \f$ polynomials each
 [[nodiscard]] SIVID_DECL enclosed_motion enclose(std::shared_ptr<flow const> f, box const& initial,
