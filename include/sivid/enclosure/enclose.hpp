@@ -28,12 +28,16 @@ namespace sivid {
 ///   number of unknowns (sides with a width), by the degree of `suggested_degree`
 /// @param options  `method` names a Runge-Kutta formula in place of the Taylor series; with Taylor
 ///   models it crosses no kinks
+/// With Taylor models, where they lose more than they keep the states get variables of their own
+/// (`docs/taylor_models.md`, section 2), and about a single start, or where they end early, sets
+/// of first order are carried as well: `enclosed_motion::carried`.
 /// @returns  `at` and `over` for any times of the proved span; where that ends early, `failure()`
 /// @throws std::invalid_argument  for boxes of other sizes, empty or unbounded, or a span that
 ///   ends before it begins
 /// @guarantee  every trajectory from the box of starts, for every parameter in its box and inputs
 ///   within their error bounds, lies in what `at` and `over` return
-/// @cost  one integration; `at` and `observe_at` cost a step. With Taylor models they cost what it
+/// @cost  one integration, or up to three for points and where one ends early; `at` and
+/// `observe_at` cost a step. With Taylor models they cost what it
 ///   takes to set up a run and at most five steps, or 1/32 of all steps; up to 64 sets are kept for
 ///   them, with n states about \f$ 13 n^2 \f$ polynomials each
 [[nodiscard]] SIVID_DECL enclosed_motion enclose(std::shared_ptr<flow const> f, box const& initial,

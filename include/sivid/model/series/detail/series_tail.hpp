@@ -153,7 +153,8 @@ private:
     [[nodiscard]] scalar movement(std::size_t a) const {
         return above_[place_[a] * stride_ + orders_ - 1] * up;
     }
-    /// \f$ \sum_{1 \le k < M} 2^{k-1} |a_k| h^k \ge h^k |a^{[k]}(s)| \f$ for all k >= 1 and s in [0, h]
+    /// \f$ \sum_{1 \le k < M} 2^{k-1} |a_k| h^k \ge h^k |a^{[k]}(s)| \f$ for all k >= 1 and s in
+    /// [0, h]
     [[nodiscard]] scalar changes(std::size_t a) const {
         scalar sum{};
         double weight = 1;
@@ -278,11 +279,10 @@ private:
         scalar const below =
             without(-rough_bounds(s.coefficient(i.a, 0)).upper, movement(i.a)); // 0 if not negative
         scalar const moves = changes(i.a);
-        return or_far(over_rest(beyond(i.target, i.a), change(i.a)), below,
-                      [&](double least, std::size_t l) {
-                          return model_detail::far_exp_tail(-least, side_by_side::get(moves, l),
-                                                            orders_);
-                      });
+        return or_far(
+            over_rest(beyond(i.target, i.a), change(i.a)), below, [&](double least, std::size_t l) {
+                return model_detail::far_exp_tail(-least, side_by_side::get(moves, l), orders_);
+            });
     }
     /// Of the tanh of a's polynomial.
     /// @param least  what that polynomial's absolute value is at least
@@ -379,8 +379,8 @@ private:
         case operation::tanh: {
             scalar const lower = without(own(), ra);
             return own() + ra * or_far(scalar(1.0), lower, [](double least, std::size_t) {
-                       return model_detail::steepest_tanh(least);
-                   });
+                               return model_detail::steepest_tanh(least);
+                           });
         }
         case operation::abs:
             return side_by_side::select(without(own(), ra) > scalar(0.0), ra, unknown);
