@@ -97,12 +97,12 @@ struct suspected_wrap {
 /// @returns  nothing where the readings do not look so
 [[nodiscard]] inline std::optional<suspected_wrap>
 suspected_period(std::vector<double> const& readings) {
-    struct candidate {
+    struct possible_wrap {
         double period;
         std::string words, entry;
         bool counter = false;
     };
-    std::vector<candidate> all{
+    std::vector<possible_wrap> all{
         {360, "360", "\"period\": 360"},
         {6.283185307179586, "2 pi", "\"period\": [6.283185307179586, 6.283185307179587]"}};
     for (int const bits : {8, 10, 12, 13, 14, 16, 20, 24, 32})
