@@ -392,6 +392,19 @@ TEST_CASE("what is bridged lies between samples of the input, each gap once") {
     refused(R"({ "W": { "samples": 0, "gaps": [[0, 0.5]] } })", "whole number from 1");
     refused(R"({ "W": { "gaps": [[0, 0.5]] } })", "samples");
     refused(R"({ "W": { "samples": 1, "gaps": [[0, 0.5]], "why": 1 } })", "why");
+    // In the data set's unit of time, as everything else.
+    folder.write("S1.inputs.csv", "t,W,delta\n0,250,0\n500,200,0.1\n1000,250,0\n");
+    folder.write("S1.measurements.csv", "t,u,u_err\n100,2,0.02\n");
+    folder.write("H1.inputs.csv", "t,W,delta\n0,250,0\n1000,250,0\n");
+    auto text =
+        io_support::replaced(io_support::small_json, "\"duration\": 1,", "\"duration\": 1000,");
+    text = io_support::replaced(
+        text, "\"v\": [0, 0] } }",
+        R"("v": [0, 0] }, "bridged": { "W": { "samples": 7, "gaps": [[0, 500]] } } })");
+    folder.write("dataset.json", io_support::replaced(text, "\"scenarios\"",
+                                                      "\"time_unit\": \"ms\", \"scenarios\""));
+    auto const other = read_dataset(folder.path(), io_support::hovercraft_names());
+    CHECK(other.scenarios[0].inputs[0].bridged == std::vector{std::pair{0.0, 0.5}});
 }
 
 TEST_CASE("a folder or a description that is not there is an error") {
