@@ -18,7 +18,7 @@ inline auto ContainsSubstring(std::string const& text) { return Contains(text); 
 #endif
 
 /// Ends a test case that lacks what it needs, so that ctest counts it as skipped: on the line
-/// "test skipped: ..." by version 2, which knows no such end, and by an exit code since version 3.3.
+/// "test skipped: ...", which version 2 prints and returns behind, since it knows no such end.
 #if defined(SKIP)
 #define SIVID_SKIP(why) SKIP("test skipped: " << why)
 #else
