@@ -50,7 +50,8 @@ TEST_CASE("measurements that stand alone are written with their factor and its w
                                        interval(0.5, 0.75),
                                        42,
                                        {{{"k", "1/s", 5}}, {}},
-                                       {{{"k", "1/s", 6}}, {}}};
+                                       {{{"k", "1/s", 6}}, {}},
+                                       "s"};
     auto const json = nlohmann::json::parse(diagnosis_json(d, "cart"))["gap"]["confined"];
     REQUIRE(json.size() == 2);
     CHECK(json[0]["channel"] == "v");

@@ -224,7 +224,7 @@ TEST_CASE("remedies: times") {
          {csv("\"same_time\": \"none\""), table, "write refuse, first or last",
           csv("\"same_time\": \"last\""), table},
          {csv_time(R"("column": "time", "unit": "fortnight", "offset": 0)"), table,
-          "write s, ms, us, ns, min or h", plain, table},
+          "write s, ms, us, ns, min, h or d", plain, table},
          {csv_time(R"("column": "time", "unit": "ms", "offset": 0, "counter_bits": 16)"), table,
           "counters that wrap need a serial source", plain, table},
          {csv_time(R"("column": "time", "unit": "ms", "offset": 0, "sample_time": 1)"), table,

@@ -111,7 +111,7 @@ TEST_CASE("readings of which nobody can tell the turn are refused") {
         double const inf = std::numeric_limits<double>::infinity();
         auto half = r;
         half.push_back({0.35, 0, above ? interval(3.1, inf) : interval(-inf, -3.1)});
-        CHECK_THROWS_WITH(wraps_of(half, 0, 3, 0), ContainsSubstring("at 0.35 s has one bound"));
+        CHECK_THROWS_WITH(wraps_of(half, 0, 3, 0), ContainsSubstring("at t = 0.35 has one bound"));
         CHECK_NOTHROW(wraps_of(half, 1, 3, 0));
     }
 }

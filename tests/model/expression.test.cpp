@@ -92,7 +92,7 @@ TEST_CASE("large powers are recorded without a deep stack, larger ones are refus
     auto const y = pown(x, 100000).in(g);
     auto const nodes = g.size();
     CHECK(pown(x, 100000).in(g) == y);
-    CHECK(pown(x, 99999).in(g) == g[y].companion);
+    CHECK(pown(x, 50000).in(g) == g[y].companion);
     CHECK(g.size() == nodes);
     CHECK(pown(expression(2.0), -4).in(g) == g.constant(0.0625));
     for (int const n : {most_power + 1, -most_power - 1, std::numeric_limits<int>::max(),

@@ -146,6 +146,7 @@ TEST_CASE("diagnosis words: which measurements stand alone") {
     auto grows = c;
     using with = sivid::noise_growth::with;
     grows.grows = sivid::noise_growth{with::rate, sivid::interval(0.0212, 0.0219)};
+    grows.grows->unit = "s";
     CHECK(missing_fact(confined_clause(grows), {"1.61 to 1.66", "0.0212 to 0.0219 s times its rate",
                                                 "proved to explain", "time stamps"}) == "");
     grows.grows->what = with::value;

@@ -26,7 +26,7 @@ missing_rate_series small_rate() {
 TEST_CASE("missing rate: a window without zero looks different from one with it") {
     std::string const text = draw_missing_rate(small_rate(), {.title = "S4"}).str();
     CHECK(markup_error(text) == "");
-    CHECK_THAT(text, ContainsSubstring("0.2 to 0.8 s: [\xE2\x88\x92"
+    CHECK_THAT(text, ContainsSubstring("0.2 to 0.8\xC2\xA0s: [\xE2\x88\x92"
                                        "0.420, \xE2\x88\x92"
                                        "0.179]\xC2\xA0rad/s\xC2\xB2, proved"));
     CHECK(occurrences(text, palette::inside) == 2); // ground and outline of one box

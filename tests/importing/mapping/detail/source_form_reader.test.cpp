@@ -69,7 +69,7 @@ TEST_CASE("the time") {
               .to_seconds(dec("7"))
               ->value == dec("7"));
     for (auto const* bad :
-         {R"({"unit": "s", "offset": 0})", R"({"column": 1, "unit": "d", "offset": 0})",
+         {R"({"unit": "s", "offset": 0})", R"({"column": 1, "unit": "fortnight", "offset": 0})",
           R"({"column": 1, "unit": "s"})", R"({"column": 1, "unit": "s", "offset": "last"})",
           R"({"column": 1, "unit": "ms", "offset": 0, "counter_bits": 32})"})
         CHECK_THROWS_AS(read_time_mapping(entry(bad), false), input_error);

@@ -8,6 +8,7 @@
 #include <sivid/enclosure/step/detail/stepper_class.hpp>
 
 #include <cstddef>
+#include <vector>
 
 namespace sivid {
 
