@@ -76,6 +76,8 @@ TEST_CASE("cases that are listed and did not run are an error") {
     CHECK(build.judged(result("one", "run")) == 1);
     CHECK(build.judged(result("one", "run") + result("under [0", "run")) == 1);
     CHECK(build.judged(result("one", "run") + result(second, "notrun")) == 1);
+    auto const skipped = result(second, "notrun") + "\t\t<skipped message=\"SKIP_";
+    CHECK(build.judged(result("one", "run") + skipped + "REGULAR_EXPRESSION_MATCHED\"/>\n") == 0);
     build.write("tests/programs/floor", "floor /nowhere/program\n");
     CHECK(build.judged(result("one", "run")) == 1);
 }

@@ -47,10 +47,11 @@ public:
         auto const first = std::make_shared<taylor_motion>(f, initial, parameters, from,
                                                            for_span(options, to - from));
         first->carry(first->begin(from), to);
-        auto const again = first->once_more(to);
-        auto const& best = again && again->last_.time > first->last_.time ? again : first;
+        auto best = first;
+        for (auto const& again : {first->once_more(to), first->regardless(to)})
+            if (again && again->last_.time > best->last_.time) best = again;
         carried_spans carried{best->last_.time, std::nullopt, std::nullopt};
-        if (best == again) carried.fresh_starts = again->fresh_;
+        if (std::isfinite(best->fresh_)) carried.fresh_starts = best->fresh_;
         auto failure = best->failure_; // no degree is the caller's to choose
         if (failure && failure->help == advice::higher_degree) failure->help = advice::smaller_box;
         return {best, best->spans_, best->last_.time, failure, carried};
@@ -127,6 +128,18 @@ private:
         again->kept_.resize(k);
         auto run = again->begin(set.time);
         run->resume(again->fresh(set));
+        again->carry(std::move(run), to);
+        return again;
+    }
+    /// The same to the end whatever polynomials lose, where they lose it for good, by an exponent that
+    /// is not known for instance: states within their own ranges still say something.
+    /// @returns  nothing where that cannot help
+    [[nodiscard]] std::shared_ptr<taylor_motion> regardless(double to) const {
+        if (!failure_ || failure_->reason != failure_reason::too_wide) return nullptr;
+        auto const again = std::make_shared<taylor_motion>(*this);
+        again->options_.remainder_share = std::numeric_limits<double>::infinity();
+        auto run = again->begin(last_.time);
+        run->resume(last_);
         again->carry(std::move(run), to);
         return again;
     }

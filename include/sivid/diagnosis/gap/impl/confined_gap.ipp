@@ -257,9 +257,9 @@ private:
                 records[e].errors.push_back(at.residuals[e][k]);
             }
         }
-        auto found = correlation_of(records);
-        if (found) found->unit = p_->model.about.time_unit;
-        return found;
+        auto together = correlation_of(records);
+        if (together) together->unit = p_->model.about.time_unit;
+        return together;
     }
     [[nodiscard]] named_witness witness_of(least_growth const& g) const {
         return named(*p_, g.proved.witness->parameters, g.proved.witness->starts);
