@@ -121,8 +121,8 @@ std::string wrong_command(std::string const& line) {
     words >> program;
     while (program.find('=') != std::string::npos) words >> program; // VARIABLE=value
     if (program == "sudo") words >> program;
-    static std::set<std::string> const tools{"apt",   "cd",    "cp",  "cmake", "mpirun",
-                                             "conan", "ctest", "export", "g++", "vcpkg"};
+    static std::set<std::string> const tools{"apt",   "cd",    "cp",     "cmake", "mpirun",
+                                             "conan", "ctest", "export", "g++",   "vcpkg"};
     std::filesystem::path const root{SIVID_SOURCE_DIR};
     bool const script =
         program.find('/') != std::string::npos && std::filesystem::exists(root / program);

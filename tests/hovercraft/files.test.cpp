@@ -53,9 +53,9 @@ TEST_CASE("a standard output that is full is an error") {
 
 TEST_CASE("a limit of the size of files ends with a message and leaves nothing") {
     temporary_folder const folder;
-    for (auto const* const command : {"identify H3 --quiet --budget 2", "simulate --scenario S3",
-                                      "generate --scenario S3 --absolute 0.02",
-                                      "diagnose H3 --budget 1 --quiet"}) {
+    for (auto const* const command :
+         {"identify H3 --quiet --budget 2", "simulate --scenario S3",
+          "generate --scenario S3 --absolute 0.02", "diagnose H3 --budget 1 --quiet"}) {
         std::string text = command;
         if (auto const at = text.find("H3"); at != std::string::npos)
             text.replace(at, 2, "'" + h3 + "'");

@@ -201,7 +201,8 @@ TEST_CASE("the development campaigns are read, and become valid problems") {
     namespace fs = std::filesystem;
     campaign const c;
     std::size_t count = 0;
-    for (auto const& entry : fs::directory_iterator{fs::path{SIVID_SOURCE_DIR} / "tests/data/campaigns"}) {
+    for (auto const& entry :
+         fs::directory_iterator{fs::path{SIVID_SOURCE_DIR} / "tests/data/campaigns"}) {
         if (!entry.is_directory()) continue;
         INFO(entry.path().filename().string());
         auto const data = sivid::read_dataset(entry.path(), c.names);

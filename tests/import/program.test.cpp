@@ -87,10 +87,10 @@ TEST_CASE("bad input: code 2, one message with file, line, field and remedy, not
     };
     auto const& [m, csv] = original;
     using io_support::replaced;
-    CHECK_THAT(
-        refused(m, replaced(csv, "1520;", "15x20;")),
-        ContainsSubstring("motor.csv: line 9, column 1 (Zeit): '15x20' is no time of the unit that the "
-                                 "mapping states; "));
+    CHECK_THAT(refused(m, replaced(csv, "1520;", "15x20;")),
+               ContainsSubstring(
+                   "motor.csv: line 9, column 1 (Zeit): '15x20' is no time of the unit that the "
+                   "mapping states; "));
     CHECK_THAT(refused(m, replaced(csv, "1520;0,00;", "1520;")),
                ContainsSubstring("motor.csv: line 9: 3 cells in a table of 4 columns; "));
     CHECK_THAT(refused(replaced(m, "\"Drehzahl\"", "\"Umdrehungen\""), csv),

@@ -46,12 +46,8 @@ TEST_CASE("measurements that stand alone are written with their factor and its w
     d.confined.push_back({"", {"S2"}, interval(0, 4), {}, {}});
     d.confined[0].correlated = error_correlation{0.5, 0.25};
     d.confined[1].steps = reading_steps{0.125, "m/s", true};
-    d.confined[0].grows = noise_growth{noise_growth::with::rate,
-                                       interval(0.5, 0.75),
-                                       42,
-                                       {{{"k", "1/s", 5}}, {}},
-                                       {{{"k", "1/s", 6}}, {}},
-                                       "s"};
+    d.confined[0].grows = noise_growth{noise_growth::with::rate, interval(0.5, 0.75),     42,
+                                       {{{"k", "1/s", 5}}, {}},  {{{"k", "1/s", 6}}, {}}, "s"};
     auto const json = nlohmann::json::parse(diagnosis_json(d, "cart"))["gap"]["confined"];
     REQUIRE(json.size() == 2);
     CHECK(json[0]["channel"] == "v");

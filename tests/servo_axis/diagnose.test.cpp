@@ -31,7 +31,8 @@ nlohmann::json const* cause_of(nlohmann::json const& d, nlohmann::json effects) 
 
 } // namespace
 
-TEST_CASE("the real axis: offset and friction explain most, the direction the rest", "[.long][measured]") {
+TEST_CASE("the real axis: offset and friction explain most, the direction the rest",
+          "[.long][measured]") {
     if (!fs::exists(real_record() / "validation_200Hz.csv"))
         SIVID_SKIP("no EMPS records in '" << real_record().string()
                                           << "' (see docs/servo_axis.md)");

@@ -24,7 +24,7 @@ inline auto ContainsSubstring(std::string const& text) { return Contains(text); 
 #else
 #define SIVID_SKIP(why)                                                                            \
     do {                                                                                           \
-        std::cout << "test skipped: " << why << std::endl;                                              \
+        std::cout << "test skipped: " << why << std::endl;                                         \
         return;                                                                                    \
     } while (false)
 #endif

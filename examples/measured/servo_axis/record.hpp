@@ -34,7 +34,8 @@ struct recording {
     for (auto const& row : table.rows()) {
         auto const time = *nearest(table.number(row, t));
         if (!result.time.empty() && !(result.time.back() < time))
-            table.fail(row.line, t, "the time does not increase", "correct it, or leave the row out");
+            table.fail(row.line, t, "the time does not increase",
+                       "correct it, or leave the row out");
         result.time.push_back(time);
         result.force.push_back(*nearest(table.number(row, f)));
         result.position.push_back(table.number(row, q));

@@ -17,7 +17,8 @@ sivid::experiment read_experiment(std::filesystem::path const& file, diagnose_co
     for (auto const& row : table.rows()) {
         auto const time = *nearest(table.number(row, t));
         if (!times.empty() && !(times.back() < time))
-            table.fail(row.line, t, "the time does not increase", "correct it, or leave the row out");
+            table.fail(row.line, t, "the time does not increase",
+                       "correct it, or leave the row out");
         auto const level = table.number(row, y);
         auto const within = [&](sivid::exact_decimal const& bound) {
             return *sivid::enclose(level - bound, level + bound);

@@ -8,10 +8,10 @@
 #include <sivid/io/impl/dataset.ipp>
 #include <sivid/io/impl/decision_json.ipp>
 #include <sivid/io/impl/diagnosis_json.ipp>
+#include <sivid/io/impl/diagnosis_reader.ipp>
 #include <sivid/io/impl/explaining_motion.ipp>
 #include <sivid/io/impl/identification_csv.ipp>
 #include <sivid/io/impl/identification_json.ipp>
-#include <sivid/io/impl/diagnosis_reader.ipp>
 #include <sivid/io/impl/identification_reader.ipp>
 #include <sivid/io/impl/input_error.ipp>
 #include <sivid/io/impl/problem_from_dataset.ipp>

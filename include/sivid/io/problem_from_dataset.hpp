@@ -39,8 +39,8 @@ inline std::vector<experiment> experiments_of(dataset const& data, model_descrip
             e.inputs.emplace_back(std::in_place_type<sampled_signal>, u.times(), u.values(),
                                   u.kind(), input.error);
             if (input.bridged.empty()) continue;
-            bridged_input b{about.inputs[i].name, input.missing, 0,
-                            u.kind() == interpolation::hold, about.time_unit};
+            bridged_input b{about.inputs[i].name, input.missing, 0, u.kind() == interpolation::hold,
+                            about.time_unit};
             for (auto const& [from, to] : input.bridged) b.longest = std::max(b.longest, to - from);
             e.bridged.push_back(std::move(b));
         }

@@ -21,9 +21,9 @@ namespace sivid {
 /// assumption, since nobody knows what the input did there.
 struct bridged_input {
     std::string input;
-    std::size_t samples = 0; ///< that are missing
-    double longest = 0;      ///< the longest time from a sample to the next one
-    bool held = false;       ///< the sample before stands there; otherwise a straight line does
+    std::size_t samples = 0;     ///< that are missing
+    double longest = 0;          ///< the longest time from a sample to the next one
+    bool held = false;           ///< the sample before stands there; otherwise a straight line does
     std::string time_unit = "s"; ///< of `longest`: the model's
 };
 

@@ -207,8 +207,7 @@ TEST_CASE("measured machines: bounds as their descriptions say") {
     temporary_folder const folder;
     auto const import_one = [&](std::string const& file, std::string const& u,
                                 std::string const& y) {
-        auto mapping =
-            replaced(csv_mapping, "a.csv", (records / file).string());
+        auto mapping = replaced(csv_mapping, "a.csv", (records / file).string());
         mapping =
             replaced(replaced(mapping, "\"time\", \"unit\": \"ms\"", "\"t_s\", \"unit\": \"s\""),
                      "\"pump\"", "\"" + u + "\"");

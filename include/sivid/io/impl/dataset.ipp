@@ -158,9 +158,8 @@ private:
     }
 
     [[nodiscard]] scenario read_scenario(json_value const& entry, stated_units const& units) const {
-        entry.allow_only(
-            {"name", "role", "duration", "inputs", "interpolation", "measurements", "initial",
-             "bridged"});
+        entry.allow_only({"name", "role", "duration", "inputs", "interpolation", "measurements",
+                          "initial", "bridged"});
         scenario result;
         result.name = mapping_entries::file_name(entry.at("name"));
         result.role = entry.at("role").is_second_of("fit", "holdout") ? scenario_role::holdout

@@ -47,8 +47,8 @@ inline stored_identification::shown_motion read_shown(json_value const& entry) {
     result.digest = entry.at("sha256").string();
     auto const& of = entry.at("of");
     if (of.type() == json_value::kind::null) return result;
-    result.source = to_string(one_of(
-        of, {motion_source::inside_box, motion_source::witness, motion_source::best_guess}));
+    result.source = to_string(
+        one_of(of, {motion_source::inside_box, motion_source::witness, motion_source::best_guess}));
     result.parameters = by_name(entry.at("parameters"), exact_ends);
     result.initial = by_name(entry.at("initial"),
                              [](json_value const& start) { return by_name(start, exact_ends); });

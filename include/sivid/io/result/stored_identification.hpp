@@ -45,7 +45,7 @@ struct stored_identification {
     /// The motion whose outputs outputs.csv encloses, as result.json says.
     struct shown_motion {
         std::string source; ///< as `to_string(motion_source)`; "" where the table shows none
-        std::map<std::string, interval> parameters; ///< the very doubles
+        std::map<std::string, interval> parameters;                     ///< the very doubles
         std::map<std::string, std::map<std::string, interval>> initial; ///< the same
         std::string digest; ///< of the table, SHA-256, as stated
     };
@@ -87,8 +87,8 @@ struct stored_identification {
     std::optional<identifiability_claims> identifiability;
     std::vector<paved_box> rows;                    ///< of boxes.csv, read outward
     std::map<std::string, std::size_t> stated_rows; ///< how many of each kind, if stated
-    std::optional<shown_motion> shown; ///< nothing where the result does not say
-    std::string outputs;               ///< the text of outputs.csv; "" where there is none
+    std::optional<shown_motion> shown;              ///< nothing where the result does not say
+    std::string outputs; ///< the text of outputs.csv; "" where there is none
 };
 
 namespace io_detail {

@@ -157,8 +157,9 @@ inline void read_serial_form(json_value const& entry, source_form& form) {
             factor && factor->divisor == 1 && factor->factor_is_exact())
             time.to_seconds = *factor;
         else
-            unit->fail(text_of("unknown unit ", in_quotes(time.unit)),
-                       "write s, ms, us, ns, min, h or d, or for a column of texts iso8601 or hh:mm:ss");
+            unit->fail(
+                text_of("unknown unit ", in_quotes(time.unit)),
+                "write s, ms, us, ns, min, h or d, or for a column of texts iso8601 or hh:mm:ss");
     }
     if (auto const* bits = entry.find("counter_bits")) {
         if (!serial) bits->fail("a counter in a table", "counters that wrap need a serial source");
