@@ -35,7 +35,8 @@ struct enclosure_options {
     /// Steps are never shorter than this share of the span, except where an input's knot or the end
     /// is closer, or a kink is crossed.
     double minimum_step = 1e-8;
-    /// Steps are never longer [the model's unit of time]; nothing: than the span.
+    /// Steps are never longer [the model's unit of time]; nothing: than a tenth of the span, as a
+    /// tube says no more of a time than what its step sweeps (`examples/short/trajectory`).
     std::optional<double> maximum_step = std::nullopt;
     /// The time of which lengths of steps are shares [the model's unit of time]: see `for_span`.
     double span = 1;
@@ -51,7 +52,7 @@ struct enclosure_options {
 
     [[nodiscard]] bool cancelled() const { return keep_going && !keep_going(); }
     [[nodiscard]] double shortest_step() const { return minimum_step * span; }
-    [[nodiscard]] double longest_step() const { return maximum_step.value_or(span); }
+    [[nodiscard]] double longest_step() const { return maximum_step.value_or(span / 10); }
 };
 
 /// The options for a span: a model may count in microseconds or in days.
