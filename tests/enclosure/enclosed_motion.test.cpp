@@ -68,8 +68,8 @@ TEST_CASE("why an enclosed motion ends is explained as for trajectories") {
         double const end = 2 * system.horizon;
         enclosure_options options;
         options.maximum_steps = 4;
-        auto const expected = explain_failure<trajectory<interval>>(*f, options, system.initial,
-                                                                    system.parameters, 0, end);
+        auto const expected = explain_failure<trajectory<interval>>(
+            *f, for_span(options, end), system.initial, system.parameters, 0, end);
         auto const found =
             explain_enclosed_motion(*f, system.initial, system.parameters, 0, end, options);
         REQUIRE(found.has_value() == expected.has_value());

@@ -51,7 +51,8 @@ X two_wells(X const& x, P const& p) {
 
 std::vector<double> times_up_to(double end) {
     std::vector<double> result;
-    for (int k = 1; k <= 12; ++k) result.push_back(end * k / 12);
+    for (int k = 1; k < 12; ++k) result.push_back(end * k / 12);
+    result.push_back(end); // end * 12 / 12 may be rounded past it
     return result;
 }
 

@@ -43,6 +43,8 @@ public:
     [[nodiscard]] virtual box observe_at(double t) const = 0;
     /// A box that contains all states at all times in [from, to], a part of one span.
     [[nodiscard]] virtual box over(double from, double to) const = 0;
+    /// The same for any part of the motion; nothing where it is asked span by span.
+    [[nodiscard]] virtual std::optional<box> over_spans(double, double) const { return {}; }
 };
 
 /// All trajectories of a family, enclosed: the `tube` that `integrate` proves over intervals of

@@ -131,7 +131,7 @@ TEST_CASE("a step without tolerance: only the local error stands between method 
             return std::vector{x[0] * (1 - x[0])};
         }));
     for (auto const& method : methods()) {
-        auto o = patient(method, 0.1);
+        auto o = patient(method, 0.5); // of states of 1/4
         o.maximum_step = 0.25;
         support::sized_runge_kutta<1, 2> run(*f, o);
         run.begin(0, box{interval(0.25)}, box{});

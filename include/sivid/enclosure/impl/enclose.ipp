@@ -257,6 +257,11 @@ public:
     [[nodiscard]] box over(double from, double to) const override {
         return said(to, [=](enclosed_motion const& m) { return m.over(from, to); });
     }
+    /// Each by its own steps: those of both together are swept from other times.
+    [[nodiscard]] std::optional<box> over_spans(double from, double to) const override {
+        if (to > std::min(one_.end_time(), other_.end_time())) return {};
+        return over(from, to);
+    }
 
 private:
     template <class Say>

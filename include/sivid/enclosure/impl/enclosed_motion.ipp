@@ -40,6 +40,7 @@ SIVID_DECL box enclosed_motion::over(double from, double to) const {
                                     nearest_text(from) + " to " + nearest_text(to));
     if (tube_) return tube_->over(from, to);
     if (from == to) return at(from);
+    if (auto const whole = between_->over_spans(from, to)) return *whole;
     auto result = hull(at(from), at(to));
     for (auto const& span : spans_) {
         if (span.to <= from || span.from >= to) continue;

@@ -34,7 +34,12 @@ namespace sivid {
             for (double const x : u->values())
                 at.inputs[i] = traits::hull(at.inputs[i], traits::point(x));
         } else {
-            at.inputs[i] = input_at(e.inputs[i], e.begin);
+            auto const& formula = std::get<analytic_signal>(e.inputs[i]);
+            graph_range range(formula.g, {formula.value});
+            range.evaluate({interval(e.begin), {}, {}, {}});
+            at.inputs[i] = range.undefined(formula.value)
+                               ? traits::bounds(-detail::infinity, detail::infinity)
+                               : range.value(formula.value);
         }
     }
     return at;
