@@ -110,6 +110,21 @@ TEST_CASE("an inflation that is forged is refuted or not proved") {
     }) == outcome::refuted);
 }
 
+TEST_CASE("a bound that is carried over is proved at the motion that it comes from, only there") {
+    auto const& c = with_drag();
+    auto const& causes = c.stored["causes"];
+    auto const upper = c.stored["gap"]["inflation"][1];
+    std::size_t k = 0;
+    while (k < causes.size() && causes[k]["inflation"][1] != upper) ++k;
+    REQUIRE(k < causes.size());
+    CHECK(c.forged([&](json& d) { scale(d["causes"][k]["inflation"], 1, 0.99); }) !=
+          outcome::verified);
+    CHECK(c.forged([&](json& d) { // the parameters of the effect, too
+        for (auto& x : d["causes"][k]["witness"]["parameters"]) x = 1.02 * x.get<double>() + 0.02;
+    }) != outcome::verified);
+    CHECK(c.forged([&](json& d) { d["time_unit"] = "ms"; }) == outcome::refuted);
+}
+
 TEST_CASE("causes that are forged are refuted or not proved") {
     auto const& c = with_drag();
     auto const explains = cause_with(c.stored, "explains");

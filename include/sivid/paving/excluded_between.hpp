@@ -16,24 +16,26 @@ namespace sivid {
 
 /// How much of a side of the prior is excluded between the ends of a hull, whatever the other sides
 /// are: no box but those proved outside has a point there.
-/// @param hull  contains all that is not proved outside
+/// @param boxes  cover all that is not proved outside
+/// @param prior  the side's
+/// @param hull   of that side: contains all that is not proved outside
 /// @returns  a share of the side's width in the prior; 0 where it has none
 /// @guarantee  rounded down: at least so much is excluded
 /// @cost  O(n log n) in the boxes
-[[nodiscard]] inline double excluded_between(subpaving const& paving, box const& hull,
+[[nodiscard]] inline double excluded_between(std::vector<paved_box> const& boxes,
+                                             interval const& prior, interval const& hull,
                                              std::size_t side) {
     using traits = interval_traits<interval>;
-    auto const& prior = paving.prior()[side];
     if (!(prior.lower() < prior.upper()) || is_empty(hull)) return 0;
     std::vector<std::pair<double, double>> left;
-    for (auto const& b : paving.boxes())
+    for (auto const& b : boxes)
         if (b.verdict != box_verdict::outside && !is_empty(b.set))
             left.emplace_back(b.set[side].lower(), b.set[side].upper());
     std::sort(left.begin(), left.end());
     interval sum{0.0};
-    double reached = hull[side].lower();
+    double reached = hull.lower();
     auto const gap_until = [&](double end) {
-        end = std::min(end, hull[side].upper());
+        end = std::min(end, hull.upper());
         if (end > reached)
             sum = traits::add(sum, traits::sub(traits::point(end), traits::point(reached)));
     };
@@ -46,6 +48,12 @@ namespace sivid {
     auto const whole = traits::sub(traits::point(prior.upper()), traits::point(prior.lower()));
     auto const share = traits::div(sum, whole, undefined);
     return undefined || !std::isfinite(share.lower()) ? 0 : std::clamp(share.lower(), 0.0, 1.0);
+}
+[[nodiscard]] inline double excluded_between(subpaving const& paving, box const& hull,
+                                             std::size_t side) {
+    return is_empty(hull)
+               ? 0
+               : excluded_between(paving.boxes(), paving.prior()[side], hull[side], side);
 }
 
 } // namespace sivid

@@ -33,6 +33,8 @@ public:
         }
         if (auto const* problem = root.find("problem")) result.source.problem = problem->string();
         auto& d = result.claims;
+        d.time_unit.clear(); // earlier versions do not say
+        if (auto const* unit = root.find("time_unit")) d.time_unit = unit->string();
         gap(root.at("gap"), d);
         for (auto const& r : root.at("relations").elements()) d.relations.push_back(relation(r));
         d.where = places(root.at("where"));

@@ -89,6 +89,7 @@ inline void read_result(json_value const& root, stored_identification& result) {
         result.source_digest = source->at("sha256").string();
     }
     if (auto const* problem = root.find("problem")) result.problem = problem->string();
+    if (auto const* unit = root.find("time_unit")) result.time_unit = unit->string();
     if (auto const* effects = root.find("effects")) {
         for (auto const& name : effects->elements()) result.effects.push_back(name.string());
     }
@@ -120,10 +121,13 @@ inline void read_result(json_value const& root, stored_identification& result) {
     if (auto const* files = root.find("files"))
         result.stated_files = by_name(*files, &json_value::string);
     auto const& parameters = root.at("parameters");
-    for (std::size_t j = 0; j < parameters.members().size(); ++j)
-        result.parameters.push_back({parameters.name_of(j),
-                                     outward(parameters.members()[j].at("hull")),
-                                     parameters.members()[j].at("unit").any_string()});
+    for (std::size_t j = 0; j < parameters.members().size(); ++j) {
+        auto const& own = parameters.members()[j];
+        result.parameters.push_back(
+            {parameters.name_of(j), outward(own.at("hull")), own.at("unit").any_string()});
+        if (auto const* share = own.find("excluded_between"))
+            result.parameters.back().excluded_between = nearest_number(*share);
+    }
     for (auto const& c : root.at("combinations").elements())
         result.combinations.push_back(
             {c.at("formula").string(), outward(c.at("hull")), c.at("unit").any_string()});

@@ -24,6 +24,8 @@ struct stored_identification {
         std::string name;
         interval range;
         std::string unit{};
+        /// Of a parameter, between the ends of its range; nothing when the result does not say.
+        std::optional<double> excluded_between{};
     };
     struct witness_point {
         std::map<std::string, double> parameters;
@@ -62,6 +64,7 @@ struct stored_identification {
     std::string source_folder; ///< the data set, as seen from the folder of the result; may be ""
     std::string source_digest; ///< of `dataset_digest`; "" when the file has none
     std::string problem;       ///< of `problem_digest`; "" when the file has none
+    std::string time_unit;     ///< of the model; "" when the file has none
     std::vector<std::string> effects; ///< joined to the data set's model, by name
     sivid::verdict verdict = sivid::verdict::undecided;
     std::string grounds; ///< what the verdict is said to rest on; "" in older files

@@ -5,6 +5,7 @@
 #include <sivid/verifier/diagnosis_check.hpp>
 
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
+#include <sivid/diagnosis/claim/detail/embedded_problem.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
@@ -66,7 +67,7 @@ public:
         add([&] { return places(); });
         for (std::size_t k = 0; k < d_->causes.size(); ++k) add([&] { return cause_at(k); });
         add([&] { return hulls_(answer()); });
-        add([&] { return check_parts(*base_, *d_, proof_, limit_); });
+        add([&] { return check_parts(*base_, *d_, most(), proof_, limit_); });
         for (auto const& c : d_->confined)
             add([&] { return check_confined(*base_, c, whole_, proof_); });
         add([&] { return check_shrinks(*d_, answer()); });
@@ -96,6 +97,8 @@ private:
             return {what, outcome::undecided, "the diagnosis does not say which"};
         if (stored_->source.problem != problem_digest(*base_))
             return {what, outcome::refuted, "another one was diagnosed"};
+        if (!d_->time_unit.empty() && d_->time_unit != base_->model.about.time_unit)
+            return {what, outcome::refuted, "another unit of time"};
         return {what, outcome::verified, "the one that was diagnosed, by SHA-256"};
     }
 
@@ -159,16 +162,21 @@ private:
         return all.finding("assumptions", "those of the problem and of every claim");
     }
 
-    /// Both ends of an inflation: the upper one by its witness, the lower one by a search.
-    void ends(identification_problem const& p, interval const& stated,
-              std::optional<named_witness> const& w, double share, finding_of_all& all,
-              std::vector<std::string>* assumptions = nullptr) const {
-        if (claims_upper(stated)) {
-            all.note(w ? proof_.at_most(p, *w, stated.upper(), assumptions)
-                       : proof_.found_at_most(p, stated.upper(), share),
-                     w ? "the witness does not show the upper bound"
-                       : "no witness is stated, and none found that shows the upper bound");
-        }
+    /// The upper end of an inflation, by its witness.
+    /// @param assumptions  receives what the proof rests on
+    [[nodiscard]] outcome upper_end(identification_problem const& p, interval const& stated,
+                                    std::optional<named_witness> const& w, double share,
+                                    std::vector<std::string>& assumptions) const {
+        if (!claims_upper(stated)) return outcome::nothing;
+        return w ? proof_.at_most(p, *w, stated.upper(), &assumptions)
+                 : proof_.found_at_most(p, stated.upper(), share);
+    }
+    /// Both ends of an inflation: the upper one as `upper_end` found it, the lower one by a search.
+    void ends(identification_problem const& p, interval const& stated, outcome upper, bool witness,
+              double share, finding_of_all& all) const {
+        all.note(upper, witness ? "the witness does not show the upper bound"
+                                : "no witness is stated, and none found that shows the upper "
+                                  "bound");
         if (stated.lower() > 0)
             all.note(proof_.at_least(p, stated.lower(), share),
                      "the lower bound is not proved within the budget, or not true");
@@ -176,11 +184,58 @@ private:
 
     [[nodiscard]] check_finding gap() {
         finding_of_all all;
-        ends(*base_, d_->inflation, d_->witness, 0.25, all);
+        base_upper_ = upper_end(*base_, d_->inflation, d_->witness, 0.25, base_assumptions_);
+        ends(*base_, d_->inflation, base_upper_, d_->witness.has_value(), 0.25, all);
         auto const words = std::string{to_string(d_->gap)};
         auto found = all.finding("gap", words + ", both bounds of its inflation");
         if (found.found == outcome::verified) whole_ = d_->inflation.lower();
         return found;
+    }
+
+    /// What the inflation of all data is proved to be at most.
+    [[nodiscard]] double most() const {
+        return base_upper_ == outcome::verified ? d_->inflation.upper() : detail::infinity;
+    }
+
+    /// Whether a witness is one of a poorer model: what is further sits where it has no effect.
+    [[nodiscard]] static bool is_moved(identification_problem const& poorer, named_witness const& w,
+                                       identification_problem const& p, named_witness const& own) {
+        auto const how = embedded(poorer, p);
+        auto const from = point_of(poorer, w), at = point_of(p, own);
+        if (!how || !from || !at || from->starts != at->starts) return false;
+        for (std::size_t j = 0; j < how->size(); ++j) {
+            auto const& u = (*how)[j];
+            if (at->parameters[j] != (u.same ? from->parameters[*u.same] : u.neutral)) return false;
+        }
+        return true;
+    }
+    /// Whether the upper end of a cause is that of the model as it is, or of another cause, by the
+    /// same motion: a part of this problem, whose bounds hold for it, too (`embedded`). A run of
+    /// this problem, written otherwise, would be rounded otherwise.
+    /// @param assumptions  receives what the proof rests on: nothing that only this problem needs
+    [[nodiscard]] bool carried(identification_problem const& p, cause const& c,
+                               std::vector<std::string>& assumptions) const {
+        if (!c.witness || !claims_upper(c.inflation)) return false;
+        auto const follows = [&](identification_problem const& poorer, interval const& stated,
+                                 std::optional<named_witness> const& w) {
+            return w && stated.upper() <= c.inflation.upper() &&
+                   is_moved(poorer, *w, p, *c.witness);
+        };
+        if (base_upper_ == outcome::verified && follows(*base_, d_->inflation, d_->witness)) {
+            assumptions = base_assumptions_;
+            return true;
+        }
+        for (auto const& other : d_->causes) {
+            if (&other == &c || other.inflation.upper() != c.inflation.upper()) continue;
+            std::vector<effect> named;
+            std::string why;
+            auto const q = with_effects(*base_, *catalogue_, other.effects, named, why);
+            if (q && follows(*q, other.inflation, other.witness) &&
+                proof_.at_most(*q, *other.witness, c.inflation.upper(), &assumptions) ==
+                    outcome::verified)
+                return true;
+        }
+        return false;
     }
 
     /// Relations are refuted anew, place by place of the same windows.
@@ -257,13 +312,17 @@ private:
         std::string const what = "cause " + name_of(c.effects);
         if (!p) return {what, outcome::undecided, "it cannot be built again: " + why};
         if (nothing) return {what, outcome::nothing, ""};
-        auto const words = wrap_assumptions(named);
-        auto needed = words;
+        auto const needed = wrap_assumptions(named);
+        auto const assumed = [&c](std::string const& a) {
+            return std::ranges::find(c.assumptions, a) != c.assumptions.end();
+        };
         double const share = 1.0 / static_cast<double>(d_->causes.size() - k + 2);
         bool const by_relation = c.verdict == cause_verdict::excluded && !c.excluded_by.empty();
-        std::vector<std::string> more;
-        ends(*p, c.inflation, c.witness, share, all, &more);
-        needed.insert(needed.end(), more.begin(), more.end());
+        std::vector<std::string> of_run;
+        auto const upper = carried(*p, c, of_run)
+                               ? outcome::verified
+                               : upper_end(*p, c.inflation, c.witness, share, of_run);
+        ends(*p, c.inflation, upper, c.witness.has_value(), share, all);
         if (c.verdict == cause_verdict::explains && !c.witness)
             all.note(outcome::undecided, "it explains the data, but no witness is stated");
         for (auto const& equation : c.untouched) {
@@ -277,15 +336,16 @@ private:
         if (by_relation) {
             auto const* f = broken(c.excluded_by);
             bool const kept = f != nullptr && keeps_relation(base_->model, p->model, *f);
-            all.note(!kept && f != nullptr                             ? outcome::refuted
-                     : f == nullptr || f->assumptions != c.assumptions ? outcome::undecided
-                                                                       : outcome::verified,
+            bool const stated = f != nullptr && std::ranges::all_of(f->assumptions, assumed);
+            all.note(!kept && f != nullptr ? outcome::refuted
+                     : stated              ? outcome::verified
+                                           : outcome::undecided,
                      "the relation " + c.excluded_by + " does not exclude it as stated");
         } else {
-            for (auto const& a : needed) {
-                bool const there = std::ranges::find(c.assumptions, a) != c.assumptions.end();
-                if (!there) all.note(outcome::refuted, "'" + a + "' is not assumed");
-            }
+            for (auto const& a : needed)
+                if (!assumed(a)) all.note(outcome::refuted, "'" + a + "' is not assumed");
+            for (auto const& a : of_run) // a bound that was carried over may do without
+                if (!assumed(a)) all.note(outcome::undecided, "'" + a + "' is not assumed");
         }
         return all.finding(what, std::string{to_string(c.verdict)} +
                                      (by_relation ? " by " + c.excluded_by : ""));
@@ -321,9 +381,10 @@ private:
         run.answer = 1;
         run.base_bound = {
             d_->inflation, verified_witness{base->parameters, base->starts, {}}, {}, {}};
-        if (auto const about = proof_.search(*base_, &*base, 0.2 * limit_.seconds());
-            about.value.upper() >= d_->inflation.upper())
-            run.base_bound.hull = about.hull; // which holds those that do as well
+        // Which hold those that do as well; all, where the search found one that does better.
+        auto const about = proof_.search(*base_, &*base, 0.2 * limit_.seconds());
+        run.base_bound.hull =
+            below(about.value.upper(), d_->inflation.upper()) ? base_->prior : about.hull;
         run.answer_bound = {
             c->inflation, verified_witness{own->parameters, own->starts, {}}, {}, {}};
         run.answer_hull = hulls_.found();
@@ -354,6 +415,8 @@ private:
     work_limit limit_;
     inflation_proof proof_;
     effect_hulls_check hulls_;
+    outcome base_upper_ = outcome::nothing;       ///< of the upper end of the gap's inflation
+    std::vector<std::string> base_assumptions_{}; ///< on which it rests
     double whole_ = 0; ///< the inflation of all data is proved to be this at least
     std::vector<relation_finding> broken_;
     std::vector<check_finding> all_;

@@ -61,6 +61,7 @@ private:
                 c.witness.parameters.size() == run_->base.prior.size() && c.factor.upper() >= 1;
             if (!complete || !lower_to(d_->inflation, c.factor.upper())) continue;
             base.witness = verified(c.witness);
+            d_->witness = c.witness;
             add(base.assumptions, c.assumptions);
         }
         base.range = d_->inflation;

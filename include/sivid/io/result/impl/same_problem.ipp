@@ -28,6 +28,8 @@ SIVID_DECL void require_same_problem(identification_problem const& problem,
     for (std::size_t j = 0; j < names.size(); ++j) {
         if (stored.parameters[j].name != names[j]) fail("other parameters than the data set's");
     }
+    if (!stored.time_unit.empty() && stored.time_unit != problem.model.about.time_unit)
+        fail("another unit of time");
     auto const& constants = problem.model.about.constants;
     auto const unit_of = [&](product_formula const& formula) {
         unit product;

@@ -21,8 +21,10 @@
 namespace sivid::io_detail {
 
 /// The inflation of each scenario and channel alone.
+/// @param most  what that of all data is proved to be at most: then that of a part is, too
 [[nodiscard]] inline check_finding check_parts(identification_problem const& base,
-                                               diagnosis const& d, inflation_proof const& proof,
+                                               diagnosis const& d, double most,
+                                               inflation_proof const& proof,
                                                work_limit const& limit) {
     using outcome = check_finding::outcome;
     finding_of_all all;
@@ -44,7 +46,10 @@ namespace sivid::io_detail {
             return;
         }
         if (nothing) return;
-        auto const found = proof.bounds(own, share * limit.seconds());
+        auto const alone = proof.bounds(own, share * limit.seconds());
+        auto const found = alone.lower() <= most && most < alone.upper()
+                               ? interval_traits<interval>::bounds(alone.lower(), most)
+                               : alone;
         auto says = compared(found, *stated.hull);
         if (says == outcome::undecided && found.upper() <= stated.hull->upper())
             says = proof.at_least(own, stated.hull->lower(), share);

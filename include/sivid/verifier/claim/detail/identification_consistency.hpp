@@ -6,6 +6,7 @@
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/excluded_between.hpp>
 #include <sivid/space/box_cover.hpp>
 #include <sivid/verifier/claim/check_finding.hpp>
 #include <sivid/verifier/claim/detail/stated_range.hpp>
@@ -97,7 +98,26 @@ inline check_finding late(std::string what) {
 
 } // namespace io_detail
 
-/// The hull of the rows is the one stated, and every row lies in the prior.
+/// What is wrong with the shares that are said to be excluded between the ends of the hull: none
+/// may be more than the boxes leave, nor less, but for what printing the ends of boxes costs.
+[[nodiscard]] inline std::string between_fault(identification_problem const& problem,
+                                               stored_identification const& stored) {
+    for (std::size_t j = 0; j < stored.parameters.size(); ++j) {
+        auto const& p = stored.parameters[j];
+        auto const& prior = problem.prior[j];
+        if (!p.excluded_between) continue;
+        double const left = excluded_between(stored.rows, prior, p.range, j);
+        auto const ends = 2 * static_cast<double>(stored.rows.size() + 1);
+        double const printed =
+            width(prior) > 0 ? ends * io_detail::cost_of_rounding(mag(prior), 8) / width(prior) : 0;
+        if (!(std::abs(*p.excluded_between - left) <= printed))
+            return "the boxes do not exclude that share of " + p.name + " between the ends";
+    }
+    return {};
+}
+
+/// The hull of the rows is the one stated, every row lies in the prior, and so much is excluded
+/// between its ends as is stated.
 [[nodiscard]] inline check_finding check_hull(identification_problem const& problem,
                                               stored_identification const& stored) {
     std::string fault;
@@ -109,6 +129,7 @@ inline check_finding late(std::string what) {
         }
     }
     if (io_detail::any_leaves(stored.rows, problem.prior)) fault = "a box leaves the prior";
+    if (fault.empty()) fault = between_fault(problem, stored);
     return io_detail::agreement("hull", fault, "that of all boxes, within the prior");
 }
 

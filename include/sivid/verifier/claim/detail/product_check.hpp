@@ -79,6 +79,7 @@ template <class I>
                     " is not that of the boxes and products";
         }
     }
+    if (fault.empty()) fault = between_fault(problem, stored);
     return io_detail::agreement("hull", fault, "that of all boxes and products");
 }
 
