@@ -2,9 +2,10 @@
 #ifndef SIVID_VERIFIER_CLAIM_DETAIL_DATA_PARTS_CHECK_HPP
 #define SIVID_VERIFIER_CLAIM_DETAIL_DATA_PARTS_CHECK_HPP
 
-#include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/diagnosis/gap/detail/confined_gap.hpp> // first: its definitions include the next
+
 #include <sivid/diagnosis/gap/detail/coarse_steps.hpp>
-#include <sivid/diagnosis/gap/detail/confined_gap.hpp>
+#include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/verifier/claim/detail/finding_of_all.hpp>
