@@ -129,7 +129,7 @@ std::string wrong_command(std::string const& line) {
     std::string const name = std::filesystem::path{program}.filename().string();
     bool const target = sources().find("add_executable(" + name) != std::string::npos ||
                         sources().find("sivid_add_robot_program(" + name) != std::string::npos ||
-                        sources().find("sivid_add_paving_benchmark(" + name) != std::string::npos;
+                        (name.starts_with("sivid_benchmark_") && sources().find(name) != std::string::npos);
     if (!script && !target && tools.count(program) == 0) return "no such program: " + program;
     bool const own = tools.count(program) == 0;
     while (words >> word) {
