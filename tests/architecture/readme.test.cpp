@@ -127,9 +127,10 @@ std::string wrong_command(std::string const& line) {
     bool const script =
         program.find('/') != std::string::npos && std::filesystem::exists(root / program);
     std::string const name = std::filesystem::path{program}.filename().string();
-    bool const target = sources().find("add_executable(" + name) != std::string::npos ||
-                        sources().find("sivid_add_robot_program(" + name) != std::string::npos ||
-                        (name.starts_with("sivid_benchmark_") && sources().find(name) != std::string::npos);
+    bool const target =
+        sources().find("add_executable(" + name) != std::string::npos ||
+        sources().find("sivid_add_robot_program(" + name) != std::string::npos ||
+        (name.starts_with("sivid_benchmark_") && sources().find(name) != std::string::npos);
     if (!script && !target && tools.count(program) == 0) return "no such program: " + program;
     bool const own = tools.count(program) == 0;
     while (words >> word) {
