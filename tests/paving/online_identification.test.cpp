@@ -257,6 +257,7 @@ TEST_CASE("a result says what ended the refinement, and calls itself complete on
     hulls.only_hulls = true;
     hulls.refinement.sufficient_ratio = 1;
     hulls.refinement.accuracy = 0;
+    hulls.refinement.live *= 8;
     CHECK(reason_of(hulls) == stop_reason::hulls_rest);
     for (int const idle : {0, 1, 3}) {
         auto o = hulls;
