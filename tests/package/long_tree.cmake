@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What only scripts/check-long builds is configured, and the build files are read: of sources that moved the check would
+# What only the preset `long` builds is configured, and the build files are read: of sources that moved the check would
 # not learn otherwise. SOURCE, WORK, GENERATOR, COMPILER.
 file(REMOVE_RECURSE "${WORK}")
 foreach(step IN ITEMS configure read)

@@ -46,7 +46,7 @@ public:
     }
     int judged(std::string const& results) const {
         write("results.xml", "<testsuite>\n" + results + "</testsuite>\n");
-        return exit_code("'" SIVID_SOURCE_DIR "/scripts/all-cases-ran' '" + root_.string() + "' '" +
+        return exit_code("'" SIVID_SOURCE_DIR "/tests/all-cases-ran' '" + root_.string() + "' '" +
                          (root_ / "results.xml").string() + "'");
     }
 
