@@ -46,11 +46,6 @@ endforeach()
 add_library(sivid_compiled STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
 add_library(sivid::compiled ALIAS sivid_compiled)
 target_compile_definitions(sivid_compiled PUBLIC SIVID_COMPILED)
-# For sivid's own check alone (cmake/own_programs.cmake). Of an inline function that several objects have, linkers take what
-# comes first: the library's before that of programs, and in it that of optimised parts before that of the others.
-if((SIVID_UNOPTIMISED OR SIVID_UNOPTIMISED_PARTS OR SIVID_OPTIMISED_PARTS) AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
-    target_link_options(sivid_compiled INTERFACE -Wl,--whole-archive $<TARGET_FILE:sivid_compiled> -Wl,--no-whole-archive)
-endif()
 foreach(component IN ITEMS sivid io verifier report)
     if(TARGET sivid::${component})
         target_link_libraries(sivid_compiled PRIVATE sivid::${component})
