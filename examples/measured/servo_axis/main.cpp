@@ -1,101 +1,53 @@
 // SPDX-License-Identifier: MIT
-// servo_axis FOLDER --out DIR: identifies a real servo axis (EMPS) from windows of its record;
-// servo_axis diagnose FOLDER --out DIR: what M v' = F - F_v v leaves out of it.
-#include "command.hpp"
-#include "console/number_range.hpp"
-#include "console/program.hpp"
+// servo_axis windows FOLDER --out DATASET: the records of a real servo axis (EMPS), cut into windows;
+// servo_axis DATASET --out DIR: what M v' = F - F_v v leaves out of it, and all that a robot's program
+// does (console::robot_program).
+#include "axis_effects.hpp"
+#include "console/robot_program.hpp"
+#include "linear_axis.hpp"
+#include "windows.hpp"
+
+#include <sivid/io/dataset_writer.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <string>
 
 namespace {
 
-/// Options of both commands; the texts become exact decimals after parsing.
-struct common_options {
-    std::string bound, start_position, start_velocity;
-
-    template <class Command>
-    common_options(CLI::App& app, Command& c)
-        : bound{c.bounds.model_error.text()},
-          start_position{c.bounds.start_position.text()},
-          start_velocity{c.bounds.start_velocity.text()} {
-        app.add_option("folder", c.folder, "folder with the record")->required();
-        app.add_option("--out", c.out, "folder for what is written")->required();
-        app.add_option("--file", c.file, "the record: a table with t_s, force_N and position_m")
-            ->capture_default_str();
-        app.add_option("--bound", bound, "of the position: it stands for the model error [m]")
-            ->capture_default_str();
-        app.add_option("--start-position", start_position, "bound of a start's position [m]")
-            ->capture_default_str();
-        app.add_option("--start-velocity", start_velocity,
-                       "bound of a start's velocity about the filter's [m/s]")
-            ->capture_default_str();
-        app.add_option("--window", c.windows.length, "length of a window [s]")
-            ->check(console::number_between(0.05, 1000.0))
-            ->capture_default_str();
-        app.add_option("--first", c.windows.first, "start of the first window [s]")
-            ->check(console::number_between(0.0, 1e6))
-            ->capture_default_str();
-        app.add_option("--every", c.windows.every,
-                       "from the start of a window to the next one's [s]")
-            ->check(console::number_between(0.05, 1e6))
-            ->capture_default_str();
-        app.add_option("--budget", c.budget, "seconds for the whole")
-            ->check(console::number_between(0.0, 1e9))
-            ->capture_default_str();
-        app.add_flag("--quiet", c.quiet, "no progress");
-    }
-    [[nodiscard]] servo::stated_bounds bounds() const {
-        return {console::positive_decimal(bound, "--bound"),
-                console::positive_decimal(start_position, "--start-position"),
-                console::positive_decimal(start_velocity, "--start-velocity")};
-    }
-};
-
-int diagnose(int argc, char** argv) {
-    servo::diagnose_command c;
-    c.command_line = console::command_line("servo_axis", argc, argv);
-    CLI::App app{"What the linear model of a real servo axis (EMPS) leaves out",
-                 "servo_axis diagnose"};
-    common_options const common(app, c);
-    app.add_option("--holdout", c.holdout_file,
-                   "a record that is held out: nothing is fitted to it")
-        ->capture_default_str();
-    app.add_option("--every-sample", c.every_sample, "compare every so many samples of a window")
-        ->check(CLI::Range(1, 1000))
+int cut_windows(int argc, char** argv) {
+    std::filesystem::path folder, out;
+    std::string bound = "0.001";
+    CLI::App app{"Windows of estimation_200Hz.csv, and of validation_200Hz.csv to hold out"};
+    app.add_option("folder", folder, "folder with the records")->required();
+    app.add_option("--out", out, "folder for the data set")->required();
+    app.add_option("--bound", bound, "of the position: it stands for the model error [m]")
         ->capture_default_str();
     try {
         app.parse(argc - 1, argv + 1);
     } catch (CLI::ParseError const& e) {
         return app.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
     }
-    c.bounds = common.bounds();
-    return servo::run(c);
-}
-
-int parse_and_run(int argc, char** argv) {
-    if (argc > 1 && std::string{argv[1]} == "diagnose") return diagnose(argc, argv);
-    servo::command c;
-    c.command_line = console::command_line("servo_axis", argc, argv);
-    CLI::App app{"Validated identification of a real servo axis (EMPS)\n"
-                 "servo_axis diagnose FOLDER --out DIR: what a linear model leaves out"};
-    common_options const common(app, c);
-    app.add_option("--accuracy", c.accuracy,
-                   "leave boxes undecided when no side is wider than this share of the prior")
-        ->check(console::number_between(1e-6, 1.0))
-        ->capture_default_str();
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::ParseError const& e) {
-        return app.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
-    }
-    c.bounds = common.bounds();
-    return servo::run(c);
+    servo::window_bounds bounds;
+    bounds.model_error = console::positive_decimal(bound, "--bound");
+    auto data = servo::axis_dataset(bounds);
+    auto const add = [&](char const* file, char const* name, sivid::scenario_role role) {
+        servo::add_windows(data, servo::read_recording(folder / file), name, role, bounds);
+    };
+    add("estimation_200Hz.csv", "estimation", sivid::scenario_role::fit);
+    if (std::filesystem::exists(folder / "validation_200Hz.csv"))
+        add("validation_200Hz.csv", "validation", sivid::scenario_role::holdout);
+    sivid::write_dataset(data, sivid::names_of(sivid::record_model(linear_axis{}).about), out);
+    std::cout << "written: " << data.scenarios.size() << " windows in " << out.string() << "\n";
+    return console::done;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    return console::guarded("servo_axis", [&] { return parse_and_run(argc, argv); });
+    if (argc > 1 && std::string{argv[1]} == "windows")
+        return console::guarded("servo_axis", [&] { return cut_windows(argc, argv); });
+    return console::robot_program("servo_axis", "What a mass with viscous friction leaves out",
+                                  linear_axis{}, servo::axis_catalogue(), argc, argv);
 }
