@@ -56,40 +56,28 @@ inline bool is_room(std::string_view floor, std::string_view room) {
     return of != rooms.end() && height_of(floor, room) < of->second.size();
 }
 
-/// What programs and guides of the tree name; nothing where it has no programs.
-struct program_names {
-    std::set<std::string> included;  ///< headers
-    std::set<std::string> words;     ///< of the examples
-    std::set<std::string> qualified; ///< those of them behind sivid::
-};
-inline program_names names_in_programs(std::filesystem::path const& tree) {
-    program_names names;
-    for (std::string const folder : {"examples", "benchmarks", "docs"}) {
-        if (!std::filesystem::exists(tree / folder)) continue;
-        for (auto const& entry : std::filesystem::recursive_directory_iterator{tree / folder}) {
-            auto const kind = entry.path().extension();
-            if (!entry.is_regular_file() || (kind != ".cpp" && kind != ".hpp" && kind != ".md"))
+/// The names behind sivid::, or a namespace within it, in the examples of the tree.
+inline std::set<std::string> names_in_programs(std::filesystem::path const& tree) {
+    std::set<std::string> names;
+    if (!std::filesystem::exists(tree / "examples")) return names;
+    for (auto const& entry : std::filesystem::recursive_directory_iterator{tree / "examples"}) {
+        auto const kind = entry.path().extension();
+        if (!entry.is_regular_file() || (kind != ".cpp" && kind != ".hpp")) continue;
+        std::ifstream in{entry.path()};
+        std::string const text{std::istreambuf_iterator<char>{in}, {}};
+        bool ours = false; // behind sivid::, or a namespace within it
+        for (std::size_t from = 0, to = 0; from < text.size(); from = to + 1) {
+            to = from;
+            while (to < text.size() &&
+                   (std::isalnum(static_cast<unsigned char>(text[to])) != 0 || text[to] == '_'))
+                ++to;
+            if (to == from) {
+                ours = ours && text[from] == ':';
                 continue;
-            std::ifstream in{entry.path()};
-            std::string const text{std::istreambuf_iterator<char>{in}, {}};
-            for (auto at = text.find("<sivid/"); at != text.npos; at = text.find("<sivid/", at + 1))
-                names.included.insert(text.substr(at + 1, text.find('>', at) - at - 1));
-            if (folder != "examples") continue;
-            bool ours = false; // behind sivid::, or a namespace within it
-            for (std::size_t from = 0, to = 0; from < text.size(); from = to + 1) {
-                to = from;
-                while (to < text.size() &&
-                       (std::isalnum(static_cast<unsigned char>(text[to])) != 0 || text[to] == '_'))
-                    ++to;
-                if (to == from) {
-                    ours = ours && text[from] == ':';
-                    continue;
-                }
-                auto const word = text.substr(from, to - from);
-                names.words.insert(word);
-                if (ours) names.qualified.insert(word);
-                ours = (ours || word == "sivid") && text.compare(to, 2, "::") == 0;
             }
+            auto const word = text.substr(from, to - from);
+            if (ours) names.insert(word);
+            ours = (ours || word == "sivid") && text.compare(to, 2, "::") == 0;
         }
     }
     return names;

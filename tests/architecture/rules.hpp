@@ -171,21 +171,6 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
            (starter != starters.end() && starter->second.count(what) > 0);
 }
 
-/// Whether a header declares types and nothing that runs: a test could but repeat their defaults.
-/// What they do is tested where they are used.
-inline bool only_types(std::vector<std::string> const& lines) {
-    bool types = false;
-    for (auto const& line : lines) {
-        types = types || line.compare(0, 7, "struct ") == 0 || line.compare(0, 6, "class ") == 0;
-        auto const code = line.substr(0, line.find("//"));
-        auto const call = code.find('('); // within a default it is no function of its own
-        if (call != code.npos && code.find('=') > call && code.find("std::function<") > call &&
-            code.find(") = de") == code.npos) // default, or delete
-            return false;
-    }
-    return types;
-}
-
 /// Names that stand at the left margin of a header in namespace sivid, or one within it that
 /// programs see: its types and functions.
 inline std::set<std::string> declared_names(std::vector<std::string> const& lines) {
@@ -202,87 +187,6 @@ inline std::set<std::string> declared_names(std::vector<std::string> const& line
         if (std::regex_search(line, found, function)) names.insert(found[4]);
     }
     return names;
-}
-
-/// The header of the standard library that a name std::... comes from; "" for names that several
-/// have or that no header of sivid needs.
-inline std::string_view standard_header(std::string_view name) {
-    static std::map<std::string_view, std::string_view> const home{
-        {"vector", "vector"},
-        {"string", "string"},
-        {"to_string", "string"},
-        {"optional", "optional"},
-        {"nullopt", "optional"},
-        {"map", "map"},
-        {"set", "set"},
-        {"function", "functional"},
-        {"array", "array"},
-        {"unique_ptr", "memory"},
-        {"shared_ptr", "memory"},
-        {"make_unique", "memory"},
-        {"make_shared", "memory"},
-        {"numeric_limits", "limits"},
-        {"uint64_t", "cstdint"},
-        {"int64_t", "cstdint"},
-        {"uint32_t", "cstdint"},
-        {"uint8_t", "cstdint"},
-        {"min", "algorithm"},
-        {"max", "algorithm"},
-        {"sort", "algorithm"},
-        {"any_of", "algorithm"},
-        {"all_of", "algorithm"},
-        {"none_of", "algorithm"},
-        {"clamp", "algorithm"},
-        {"copy", "algorithm"},
-        {"fill", "algorithm"},
-        {"transform", "algorithm"},
-        {"find_if", "algorithm"},
-        {"move", "utility"},
-        {"pair", "utility"},
-        {"variant", "variant"},
-        {"string_view", "string_view"},
-        {"chrono", "chrono"},
-        {"filesystem", "filesystem"},
-        {"isfinite", "cmath"},
-        {"isnan", "cmath"},
-        {"sqrt", "cmath"},
-        {"size_t", "cstddef"},
-        {"ptrdiff_t", "cstddef"},
-        {"mutex", "mutex"},
-        {"atomic", "atomic"},
-        {"invalid_argument", "stdexcept"},
-        {"runtime_error", "stdexcept"},
-        {"logic_error", "stdexcept"},
-        {"domain_error", "stdexcept"},
-        {"accumulate", "numeric"},
-        {"iota", "numeric"},
-        {"tuple", "tuple"},
-        {"deque", "deque"},
-        {"span", "span"}};
-    auto const found = home.find(name);
-    return found == home.end() ? std::string_view{} : found->second;
-}
-
-/// The headers of the standard library that these lines use without including them. (The test
-/// `each header alone` parses behind a precompiled standard library and would not see it.)
-inline std::set<std::string> missing_standard_headers(std::vector<std::string> const& lines) {
-    std::set<std::string> had, used;
-    for (auto const& line : lines) {
-        auto const target = included(line);
-        if (!target.empty()) had.insert(target.substr(1));
-        auto const code = line.substr(0, line.find("//"));
-        for (auto at = code.find("std::"); at != code.npos; at = code.find("std::", at + 1)) {
-            auto end = at + 5;
-            while (end < code.size() &&
-                   (std::isalnum(static_cast<unsigned char>(code[end])) != 0 || code[end] == '_'))
-                ++end;
-            used.insert(
-                std::string{standard_header(std::string_view{code}.substr(at + 5, end - at - 5))});
-        }
-    }
-    used.erase("");
-    for (auto const& header : had) used.erase(header);
-    return used;
 }
 
 /// The header that a file of definitions belongs to: a/b/impl/x.ipp to a/b/x.hpp.
@@ -383,9 +287,7 @@ inline std::vector<finding> check(fs::path const& tree) {
     // compiled once, and in a cycle what they need would not be declared yet.
     std::map<std::string, std::vector<std::string>> graph;
     std::set<std::string> umbrella_members, core_headers;
-    std::map<std::string, std::set<std::string>> users;    // header -> headers that include it
     std::map<std::string, std::set<std::string>> declared; // header -> what stands in it
-    std::vector<std::string> doors;                        // public headers of floors with rooms
     std::set<std::string> listed, definitions_of_floors;   // .ipp in sivid/impl, and all of them
 
     for (auto const& entry : fs::recursive_directory_iterator{include / "sivid"}) {
@@ -424,7 +326,6 @@ inline std::vector<finding> check(fs::path const& tree) {
             file == "odeint_stepping.hpp";
         if (!at_root && !internal && !optional && rank < core_floors) core_headers.insert(name);
 
-        if (!at_root && !internal && !optional && rooms.count(floor) > 0) doors.push_back(name);
         if (definitions && !at_root) definitions_of_floors.insert(name);
 
         auto const lines = lines_of(path);
@@ -457,7 +358,6 @@ inline std::vector<finding> check(fs::path const& tree) {
             if (to_definitions && at_root) listed.insert(other);
             auto const node = definitions ? header_of(relative) : name;
             if (!to_definitions && other != node) graph[node].push_back(other);
-            if (!at_root && other != node) users[other].insert(node);
             if (name == "sivid/sivid.hpp") umbrella_members.insert(other);
             if (!fs::exists(include / other))
                 report("missing", "includes <" + other + ">, which does not exist");
@@ -476,26 +376,7 @@ inline std::vector<finding> check(fs::path const& tree) {
                 report("unproved", "includes <" + other + ">, which is no result of a fit");
         }
 
-        if (!definitions)
-            for (auto const& header : missing_standard_headers(lines))
-                report("standard", "uses names of <" + header + "> without including it");
-
         if (!definitions) declared[name] = declared_names(lines);
-        if (!internal) {
-            auto const place = fs::relative(path, include / "sivid").parent_path();
-            auto const test = tree / "tests" / place / (path.stem().string() + ".test.cpp");
-            if (!fs::exists(test)) {
-                if (!only_types(lines))
-                    report("test",
-                           std::string{"no "}.append(fs::relative(test, tree).generic_string()));
-            } else {
-                auto const text = lines_of(test);
-                bool const named = std::any_of(text.begin(), text.end(), [&](auto const& line) {
-                    return included(line) == "<" + name;
-                });
-                if (!named) report("test", "its test does not include it");
-            }
-        }
     }
 
     for (auto const& header : core_headers)
@@ -504,17 +385,6 @@ inline std::vector<finding> check(fs::path const& tree) {
                 {"umbrella", "include/" + header, "not in sivid.hpp (scripts/update-umbrella)"});
 
     auto const programs = names_in_programs(tree);
-    auto const any_of = [](std::set<std::string> const& names, std::set<std::string> const& of) {
-        return std::any_of(names.begin(), names.end(),
-                           [&](std::string const& n) { return of.count(n) > 0; });
-    };
-    if (!programs.included.empty())
-        for (auto const& door : doors)
-            if (users[door].size() < 2 && programs.included.count(door) == 0 &&
-                !any_of(declared[door], programs.words))
-                findings.push_back({"door", "include/" + door,
-                                    "public, but no program and at most one header includes it: "
-                                    "it belongs into a room or its detail/"});
     std::set<std::string> offered;
     for (auto const& [header, names] : declared)
         if (header.find("/detail/") == std::string::npos)
@@ -523,7 +393,7 @@ inline std::vector<finding> check(fs::path const& tree) {
         for (auto const& name : names)
             if (header.find("/detail/") != std::string::npos && offered.count(name) == 0 &&
                 header.find("_class.hpp") == std::string::npos && // of a public header
-                programs.qualified.count(name) > 0)
+                programs.count(name) > 0)
                 findings.push_back({"detail", "include/" + header,
                                     "a program names " + name + ", which stands in detail/"});
 
