@@ -131,47 +131,6 @@ posed random_posed(draws& d) {
 
 } // namespace
 
-TEST_CASE("the order of the search and its results are those of the plain loop it came from") {
-    struct expectation {
-        bool contracting;
-        search_order order;
-        int variant;
-        std::size_t tested, boxes, inside, undecided;
-        double inner, outer;
-    };
-    auto const first = search_order::first_in, large = search_order::largest_first;
-    for (auto const& e : std::initializer_list<expectation>{
-             {false, large, 0, 1207, 604, 160, 248, 0x1.9p-6, 0x1.44p-5},
-             {false, large, 1, 1162, 821, 154, 0, 0x1.8ap-6, 0x1.48p-5},
-             {false, large, 2, 1207, 604, 160, 248, 0x1.9p-6, 0x1.44p-5},
-             {false, first, 0, 1207, 604, 160, 248, 0x1.9p-6, 0x1.44p-5},
-             {false, first, 1, 1162, 821, 154, 0, 0x1.8ap-6, 0x1.48p-5},
-             {true, large, 0, 1360, 828, 260, 304, 0x1.a56482f5e9fd8p-6, 0x1.1777f32d08633p-5},
-             {true, large, 1, 780, 692, 128, 0, 0x1.63872f9e3b058p-6, 0x1.281d52045e2f8p-5},
-             {true, large, 2, 32, 44, 0, 0, 0, 0x1.23bcd0aac6cafp-4},
-             {true, first, 0, 1360, 828, 260, 304, 0x1.a56482f5e9fd6p-6, 0x1.1777f32d0863p-5},
-             {true, first, 1, 842, 766, 146, 3, 0x1.64131ede018fbp-6, 0x1.28876ac2fd141p-5}}) {
-        ring test{1, 2, e.contracting};
-        inversion_options o;
-        o.accuracy = 1.0 / 128;
-        o.order = e.order;
-        o.sufficient_ratio = e.variant == 1 ? 0.6 : 1;
-        o.accuracy_of_hull = e.variant == 1;
-        o.hull_gain = e.variant == 2 ? 0.02 : 0;
-        auto const found = invert(test, square, o);
-        CAPTURE(e.contracting, e.variant);
-        CHECK(found.tested == e.tested);
-        CHECK(found.paving.boxes().size() == e.boxes);
-        CHECK(found.paving.count(box_verdict::inside) == e.inside);
-        CHECK(found.paving.count(box_verdict::undecided) == e.undecided);
-        CHECK(found.paving.inner_volume().lower() == e.inner);
-        CHECK(found.paving.outer_volume().upper() == e.outer);
-        CHECK(found.reason == (e.variant == 1     ? stop_reason::inside_share
-                               : e.undecided == 0 ? stop_reason::hulls_rest
-                                                  : stop_reason::accuracy_reached));
-    }
-}
-
 TEST_CASE("a plain test may be interrupted before every single step") {
     inversion_options o;
     o.accuracy = 1.0 / 32;
