@@ -184,6 +184,8 @@ TEST_CASE("planted breaches are found") {
         CHECK(tree.findings() == "");
     }
     SECTION("a test that a script or a build file names, and that has moved") {
+        for (std::string const name : {"number/low", "space/high"})
+            tree.write("tests/" + name + ".test.cpp", "#include <sivid/" + name + ".hpp>\n");
         tree.write("scripts/check-far", "tests=\"number/low tests/number/low.test.cpp\"\n");
         tree.write("tests/CMakeLists.txt", "add(space/high ${x}/number/low.test.cpp)\n");
         CHECK(tree.findings() == "");
