@@ -16,7 +16,7 @@ namespace {
 
 identify_options of_one_thread() {
     identify_options options;
-    options.search.seconds = 5;
+    options.search.seconds = 60;
     return options;
 }
 
@@ -26,7 +26,7 @@ TEST_CASE("windows over shapes lose no parameter that explains the data, and lea
     std::size_t tried = 0, halved = 0;
     support::each_planted_curve(support::swept(10U, 300U), [&](auto const& p, draws&) {
         auto const left =
-            paving_detail::contract_by_shapes(p.problem, of_one_thread(), work_limit(5.0, nullptr));
+            paving_detail::contract_by_shapes(p.problem, of_one_thread(), work_limit(60.0, nullptr));
         if (!left) return;
         ++tried;
         REQUIRE(left->starts.size() == p.problem.experiments.size());
