@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/claim/check_finding.hpp>
+#include <sivid/verifier/check_finding.hpp>
 
 #include "support/catch.hpp"
 

@@ -1,30 +1,294 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_VERIFIER_CLAIM_DETAIL_OUTPUT_CHECK_HPP
-#define SIVID_VERIFIER_CLAIM_DETAIL_OUTPUT_CHECK_HPP
+#ifndef SIVID_VERIFIER_CLAIM_DETAIL_WITNESS_CHECKS_HPP
+#define SIVID_VERIFIER_CLAIM_DETAIL_WITNESS_CHECKS_HPP
 
+#include <sivid/approximate/fit/detail/counterexample.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/paving/run/plain_run.hpp>
-#include <sivid/verifier/claim/detail/identification_consistency.hpp>
-#include <sivid/verifier/proof/detail/certificate.hpp>
+#include <sivid/verifier/claim/detail/stored_claims.hpp>
+#include <sivid/verifier/proof/detail/plain_proof.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <limits>
 #include <map>
 #include <optional>
+#include <random>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace sivid {
+
+namespace io_detail {
+
+/// Readings of one instant and channel. A result says how many of them are forced outliers, not
+/// which.
+struct forced_readings {
+    std::size_t all = 0, forced = 0;
+    std::vector<std::size_t> missed; ///< those that the witness does not certainly meet
+};
+
+/// @param hits  what the witness certainly meets; may be empty
+inline forced_readings readings_of(stored_identification const& stored,
+                                   stored_identification::outlier const& f, record const& samples,
+                                   model_description const& about, std::vector<bool> const& hits) {
+    forced_readings result;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        if (samples[k].time != f.time || about.channels[samples[k].channel].name != f.channel)
+            continue;
+        ++result.all;
+        if (k >= hits.size() || !hits[k]) result.missed.push_back(k);
+    }
+    for (auto const& g : stored.forced) {
+        bool const same = g.scenario == f.scenario && g.time == f.time && g.channel == f.channel;
+        result.forced += same ? 1 : 0;
+    }
+    return result;
+}
+
+template <class I>
+bool all_violated(plain_outputs<I> const& known, record const& samples,
+                  std::vector<std::size_t> const& which) {
+    using traits = interval_traits<I>;
+    return std::all_of(which.begin(), which.end(), [&](std::size_t k) {
+        if (k >= known.outputs.size() || !known.outputs[k].defined) return false;
+        auto const& b = samples[k].bound;
+        return traits::disjoint(known.outputs[k].value, traits::bounds(b.lower(), b.upper()));
+    });
+}
+
+/// Whether every parameter of every row violates these measurements of an experiment: proved over
+/// parts of the rows' hull, as long as `keep_going` says.
+template <class I, class KeepGoing>
+bool violated_everywhere(identification_problem const& problem, stored_identification const& stored,
+                         experiment const& own, plain_run<I>& run,
+                         std::vector<std::size_t> const& which, KeepGoing const& keep_going) {
+    if (which.empty() || stored.rows.empty()) return true;
+    std::vector<box> waiting{intersect(hull_of(stored.rows), problem.prior)};
+    while (!waiting.empty()) {
+        auto const region = std::move(waiting.back());
+        waiting.pop_back();
+        bool const needed =
+            std::any_of(stored.rows.begin(), stored.rows.end(),
+                        [&](auto const& row) { return !is_empty(intersect(row.set, region)); });
+        if (!needed || all_violated(run(own.initial, region), run.samples(), which)) continue;
+        auto const side = widest_side(region, problem.prior, 1e-12);
+        if (!side || !keep_going()) return false;
+        auto [low, high] = bisect(region, *side, mid(region[*side]));
+        waiting.push_back(std::move(low));
+        waiting.push_back(std::move(high));
+    }
+    return true;
+}
+
+} // namespace io_detail
+
+/// Every parameter of every row violates the measurements that are said to be forced outliers.
+///   Of several readings of one channel at one instant so many must be violated, each by all
+///   parameters, as are stated there.
+/// @param hits  by experiment and sample: what a verified witness certainly meets; may be empty
+/// @cost  runs over parts of the rows' hull until each shows the violations, or the time is up
+template <class I>
+[[nodiscard]] check_finding check_forced(identification_problem const& problem,
+                                         stored_identification const& stored,
+                                         std::vector<std::vector<bool>> const& hits,
+                                         enclosure_options const& how, double seconds) {
+    using outcome = check_finding::outcome;
+    std::string const what = "proved outliers";
+    work_limit const in_time(seconds);
+    bool any = false;
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        auto const& own = problem.experiments[e];
+        plain_run<I> run(problem.model, problem.choice, own, how);
+        std::vector<std::size_t> which;                  // shown together
+        std::vector<io_detail::forced_readings> unclear; // one by one
+        for (auto const& f : stored.forced) {
+            if (f.scenario != own.name) continue;
+            any = true;
+            auto const r = io_detail::readings_of(stored, f, run.samples(), problem.model.about,
+                                                  e < hits.size() ? hits[e] : std::vector<bool>{});
+            if (r.all < r.forced) {
+                return {what, outcome::refuted, "no such measurement in " + own.name};
+            }
+            if (r.missed.size() < r.forced) {
+                return {what, outcome::refuted, "the witness meets one in " + own.name};
+            }
+            if (r.missed.size() > r.forced) {
+                unclear.push_back(r);
+            } else {
+                which.insert(which.end(), r.missed.begin(), r.missed.end());
+            }
+        }
+        auto const violated = [&](std::vector<std::size_t> const& these) {
+            return io_detail::violated_everywhere(problem, stored, own, run, these, in_time);
+        };
+        bool proved = violated(which);
+        for (std::size_t k = 0; k < unclear.size() && proved; ++k) {
+            std::size_t found = 0;
+            for (auto const place : unclear[k].missed) found += violated({place}) ? 1 : 0;
+            proved = found >= unclear[k].forced;
+        }
+        if (!proved) return {what, outcome::undecided, "no proof within the budget"};
+    }
+    bool const strangers =
+        std::any_of(stored.forced.begin(), stored.forced.end(), [&](auto const& f) {
+            return std::none_of(problem.experiments.begin(), problem.experiments.end(),
+                                [&](auto const& e) { return e.name == f.scenario; });
+        });
+    if (strangers) return {what, outcome::refuted, "one in no scenario of the data set"};
+    if (!any) return {what, outcome::nothing, ""};
+    return {what, outcome::verified, "every box violates those stated"};
+}
+
+namespace io_detail {
+
+/// Regions to be refuted: the whole prior, or parts of the boxes, where that is hardest, and of the
+/// prior in turn.
+inline std::vector<box_claim> regions_to_refute(identification_problem const& problem,
+                                                stored_identification const& stored,
+                                                std::size_t sample, std::uint64_t seed) {
+    if (sample == 0) return {{problem.prior, box_claim::kind::outside}};
+    std::vector<box_claim> claims;
+    std::mt19937_64 random(seed);
+    auto const share = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    for (std::size_t k = 0; k < sample; ++k) {
+        auto part = problem.prior;
+        if (k % 2 == 0 && !stored.rows.empty()) {
+            part = intersect(stored.rows[random() % stored.rows.size()].set, problem.prior);
+        }
+        shrink_to_share(part, problem.prior, share);
+        if (!is_empty(part)) claims.push_back({std::move(part), box_claim::kind::outside});
+    }
+    return claims;
+}
+
+/// All ways to hand out what is left beyond `now`, from scenario e on.
+/// @returns false where there are more than `most`
+inline bool hand_out(std::vector<std::size_t>& now, std::size_t e, std::size_t left,
+                     std::size_t most, std::vector<std::vector<std::size_t>>& all) {
+    auto const own = now[e];
+    bool few = true;
+    for (std::size_t k = e + 1 == now.size() ? left : 0; k <= left && few; ++k) {
+        now[e] = own + k;
+        if (e + 1 < now.size()) {
+            few = hand_out(now, e + 1, left - k, most, all);
+        } else {
+            all.push_back(now);
+            few = all.size() <= most;
+        }
+    }
+    now[e] = own;
+    return few;
+}
+
+} // namespace io_detail
+
+/// Whether so many outliers are needed as a result says.
+///   That they suffice is the verdict with these budgets, and for a scenario by itself a fit that
+///   is proved to explain it where it is to need fewer than its budget. One less than a scenario
+///   needs by itself must exclude the prior; so must one less in all, however these are handed out
+///   to the scenarios: one may make up for another. Fits look for fewer first.
+/// @param sample  so many regions for each claim; 0: the whole prior
+/// @cost  validated runs until each region is refuted, or the time is up
+template <class I>
+[[nodiscard]] check_finding
+check_fewest(identification_problem const& problem, stored_identification const& stored,
+             certificate_options how, double seconds, std::size_t sample, std::uint64_t seed) {
+    using outcome = check_finding::outcome;
+    std::string const what = "outliers needed";
+    if (!stored.fewest) return {what, outcome::nothing, ""};
+    std::size_t budgets = 0;
+    for (auto const& e : problem.experiments) budgets += e.outliers;
+    if (stored.fewest->most != budgets) {
+        return {what, outcome::refuted, "not as many as the scenarios' budgets"};
+    }
+    if (stored.verdict != verdict::consistent) {
+        return {what, outcome::refuted, "the verdict does not say that they suffice"};
+    }
+    std::vector<identification_problem> impossible, possible;
+    std::vector<std::size_t> least; // by scenario
+    std::size_t alone = 0;
+    for (auto const& e : problem.experiments) {
+        auto const own = stored.fewest_alone.find(e.name);
+        if (own == stored.fewest_alone.end() || own->second.most > e.outliers ||
+            e.outliers > e.measurements.size()) {
+            return {what, outcome::refuted, "no number, or too large a one, for " + e.name};
+        }
+        auto single = problem;
+        single.experiments = {e};
+        if (own->second.most < e.outliers) {
+            single.experiments[0].outliers = own->second.most;
+            possible.push_back(single);
+        }
+        alone += least.emplace_back(own->second.least);
+        if (own->second.least == 0) continue;
+        single.experiments[0].outliers = own->second.least - 1;
+        impossible.push_back(std::move(single));
+    }
+    if (stored.fewest_alone.size() != problem.experiments.size()) {
+        return {what, outcome::refuted, "of a scenario that the data set lacks"};
+    }
+    std::vector<std::vector<std::size_t>> fewer; // by what each needs alone where there are none
+    bool const few = stored.fewest->least <= alone ||
+                     io_detail::hand_out(least, 0, stored.fewest->least - 1 - alone, 32, fewer);
+    if (!few) fewer.clear();
+    for (auto const& counts : fewer) {
+        auto& p = impossible.emplace_back(problem);
+        for (std::size_t e = 0; e < counts.size(); ++e) {
+            auto& own = p.experiments[e];
+            own.outliers = std::min(counts[e], own.measurements.size());
+        }
+    }
+    auto const found_by_fit = [&](identification_problem const& p) {
+        counterexample_options fits;
+        fits.seconds = 0.3 * seconds / static_cast<double>(impossible.size() + possible.size());
+        fits.keep_going = how.keep_going;
+        fits.confirms = [&](approximate_fit const& f) {
+            return io_detail::judge_point<I>(p, f, true) == run_finding::explained;
+        };
+        return find_explaining_point(p, {p.prior}, fits);
+    };
+    if (std::any_of(impossible.begin(), impossible.end(), found_by_fit)) {
+        return {what, outcome::refuted, "fewer suffice: a fit found, and validated runs prove"};
+    }
+    std::string unshown;
+    for (auto const& p : possible) {
+        auto const& own = p.experiments[0];
+        if (found_by_fit(p)) continue;
+        unshown += "; not shown that " + std::to_string(own.outliers) + " suffice for " + own.name;
+    }
+    std::size_t proved = 0, all = 0;
+    for (auto const& p : impossible) {
+        auto claims = io_detail::regions_to_refute(p, stored, sample, seed);
+        how.seconds = seconds / static_cast<double>(impossible.size());
+        claim_checker<I>(p, {}, how)(claims);
+        for (auto const& c : claims) {
+            ++all;
+            proved += c.found == box_claim::status::proved ? 1 : 0;
+            if (c.found == box_claim::status::refuted) {
+                return {what, outcome::refuted, "fewer suffice"};
+            }
+        }
+    }
+    std::string detail =
+        std::to_string(proved) + " of " + std::to_string(all) + " regions refuted with one less";
+    if (!few) detail += "; the total is not checked from below: too many ways to share it";
+    return {what,
+            proved < all || !few || !unshown.empty() ? outcome::undecided
+            : sample == 0 || all == 0                ? outcome::verified
+                                                     : outcome::sampled,
+            detail + unshown};
+}
 
 namespace io_detail {
 
@@ -61,20 +325,12 @@ struct output_row {
 
 /// @returns nothing for a cell that is no number
 inline std::optional<interval> stated_bounds(std::string_view low, std::string_view high) {
-    auto const infinity = std::numeric_limits<double>::infinity();
-    std::array ends{-infinity, infinity};
-    if (!low.empty()) {
-        auto const value = parse_decimal(low);
-        if (!value) return std::nullopt;
-        ends[0] = value->upper();
-    }
-    if (!high.empty()) {
-        auto const value = parse_decimal(high);
-        if (!value) return std::nullopt;
-        ends[1] = value->lower();
-    }
-    if (ends[0] > ends[1]) return std::nullopt;
-    return interval_traits<interval>::bounds(ends[0], ends[1]);
+    auto const end = [](std::string_view cell, double none) {
+        return cell.empty() ? std::optional{interval(none)} : parse_decimal(cell);
+    };
+    auto const lower = end(low, -HUGE_VAL), upper = end(high, HUGE_VAL);
+    if (!lower || !upper || lower->upper() > upper->lower()) return std::nullopt;
+    return interval_traits<interval>::bounds(lower->upper(), upper->lower());
 }
 
 /// The rows of outputs.csv, which must be those of the measurements, every one and in their order.

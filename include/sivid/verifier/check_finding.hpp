@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_VERIFIER_CLAIM_CHECK_FINDING_HPP
-#define SIVID_VERIFIER_CLAIM_CHECK_FINDING_HPP
+#ifndef SIVID_VERIFIER_CHECK_FINDING_HPP
+#define SIVID_VERIFIER_CHECK_FINDING_HPP
+
+#include <sivid/enclosure/options.hpp>
+#include <sivid/paving/run_options.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +51,39 @@ struct check_finding {
            : any(outcome::sampled)   ? outcome::sampled
                                      : outcome::verified;
 }
+
+/// How hard claims about boxes are tried.
+struct certificate_options : enclosure_options {
+    certificate_options()
+        : enclosure_options{.order = 10,
+                            .tolerance = 1e-9,
+                            .relative_tolerance = 1e-3,
+                            .minimum_step = 1e-5,
+                            .maximum_steps = 4000,
+                            .widest = 1.0} {}
+
+    double seconds = 10;
+    /// Validated runs for one claim before it is left open.
+    std::size_t runs_per_claim = 200;
+    /// Regions wider than this share of the prior are split without a run.
+    double widest_region = 1.0 / 16;
+};
+
+/// How much of a stored identification is proved anew.
+struct identification_check_options {
+    std::size_t sample =
+        24; ///< number of inside boxes and of excluded boxes in the sample, or parts of them
+    bool all = false; ///< every box instead
+    std::uint64_t seed = 1;
+    double seconds = 20; ///< for everything; what is not proved by then is not decided
+    /// Share of the prior's sides next to a box that is not excluded of which the check may say
+    /// nothing.
+    double rim = 1e-6;
+    /// What the program that wrote the result assumes beside what the problem says.
+    std::vector<std::string> further_assumptions = {};
+    certificate_options certificate;
+    run_options run{}; ///< of the Taylor models by which excluded boxes are proved
+};
 
 } // namespace sivid
 
