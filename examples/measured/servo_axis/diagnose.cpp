@@ -9,7 +9,7 @@
 
 #include <sivid/approximate/fit/fit.hpp>
 #include <sivid/model/affected_problem.hpp>
-#include <sivid/report/table.hpp>
+#include <sivid/report/page.hpp>
 
 #include <algorithm>
 #include <array>
@@ -295,15 +295,17 @@ void merge_windows(report::diagnosis_plot_data& data) {
     }
     data.scenarios = std::move(merged);
     for (auto* rates : {&data.missing_rates, &data.remaining_rates}) {
-        std::vector<report::missing_rate_series> joined;
+        std::vector<report::missing_rate> joined;
         for (auto const& r : *rates) {
             if (joined.empty() || joined.back().equation != r.equation) {
                 joined.push_back(r);
                 joined.back().scenario = "estimation record, window by window";
                 continue;
             }
-            append(joined.back().estimate, r.estimate);
-            append(joined.back().certified, r.certified);
+            auto& to = joined.back().rate;
+            append(to.after, r.rate.after);
+            append(to.band, r.rate.band);
+            append(to.windows, r.rate.windows);
         }
         *rates = std::move(joined);
     }

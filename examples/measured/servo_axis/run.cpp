@@ -11,7 +11,6 @@
 #include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
-#include <sivid/report/identification_words.hpp>
 
 #include <algorithm>
 #include <chrono>

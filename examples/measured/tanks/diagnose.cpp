@@ -11,7 +11,7 @@
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation/observer_refutation.hpp>
 #include <sivid/report/number_text.hpp>
-#include <sivid/report/table.hpp>
+#include <sivid/report/page.hpp>
 
 #include <algorithm>
 #include <cmath>

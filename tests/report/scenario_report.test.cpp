@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/report/fill/detail/scenario_report.hpp>
+#include <sivid/report/identification_report.hpp>
 
 #include "io/small_identification.hpp"
 #include "support/catch.hpp"
@@ -15,7 +15,7 @@ TEST_CASE("measurements, tube and reference line of an experiment") {
     auto const found = two_rates_result(problem);
     auto const motion = sivid::find_explaining_motion(problem, found, 60);
     REQUIRE(motion);
-    auto const s = detail::scenario_filler(problem, found, &*motion, std::nullopt, 0).view();
+    auto const s = view_of(problem, found, &*motion, {}).scenarios.at(0);
     CHECK(s.name == "run");
     CHECK(s.measurements == 6);
     REQUIRE(s.channels.size() == 1);
@@ -51,7 +51,7 @@ TEST_CASE("a plane needs both of its channels") {
     auto const motion = sivid::find_explaining_motion(problem, found, 20);
     REQUIRE(motion);
     auto const in_plane = [&](plane_channels const& names) {
-        return detail::scenario_filler(problem, found, &*motion, names, 0).view().plane;
+        return view_of(problem, found, &*motion, {.plane = names}).scenarios.at(0).plane;
     };
     CHECK_FALSE(in_plane({"x", "y", "psi"}));
     auto const diagonal = in_plane({"x", "x", ""});
@@ -62,9 +62,7 @@ TEST_CASE("a plane needs both of its channels") {
 
 TEST_CASE("without a motion only the measurements are shown") {
     auto const problem = two_rates_problem();
-    auto const s =
-        detail::scenario_filler(problem, two_rates_result(problem), nullptr, std::nullopt, 0)
-            .view();
+    auto const s = view_of(problem, two_rates_result(problem), nullptr, {}).scenarios.at(0);
     REQUIRE(s.channels.size() == 1);
     CHECK(s.channels[0].tube.empty());
     CHECK(s.channels[0].reference.empty());
