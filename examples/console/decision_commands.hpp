@@ -15,7 +15,6 @@
 #include <sivid/decision/verification.hpp>
 #include <sivid/io/decision_json.hpp>
 #include <sivid/io/file_set.hpp>
-#include <sivid/report/control_page.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
 

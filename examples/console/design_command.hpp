@@ -16,7 +16,7 @@
 #include <sivid/io/decision_json.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/model/manoeuvre.hpp>
-#include <sivid/report/design_page.hpp>
+#include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
 
 #include <algorithm>

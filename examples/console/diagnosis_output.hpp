@@ -11,7 +11,6 @@
 #include <sivid/io/file_set.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/report/diagnosis_page.hpp>
-#include <sivid/report/diagnosis_report.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 
 #include <algorithm>
@@ -27,26 +26,26 @@ namespace console {
 
 namespace detail {
 
-inline std::vector<sivid::report::missing_rate_series>
+inline std::vector<sivid::report::missing_rate>
 missing_rates(sivid::place_estimate const& places,
               std::vector<sivid::relation_finding> const& findings, std::string const& time_unit) {
-    std::vector<sivid::report::missing_rate_series> result;
+    std::vector<sivid::report::missing_rate> result;
     for (auto const& p : places.places) {
         if (p.kind == sivid::place_kind::sensor) continue;
         for (auto const& r : p.rates) {
-            sivid::report::missing_rate_series d{p.name, r.scenario, p.unit};
-            d.time_unit = time_unit;
+            sivid::report::channel_series d{.unit = p.unit, .time_unit = time_unit};
             for (std::size_t k = 0; k < r.times.size(); ++k) {
                 double const v = r.values[k], off = r.deviations[k];
-                d.estimate.push_back({r.times[k], v, {v - off, v + off}});
+                d.after.push_back({r.times[k], v});
+                d.band.push_back({r.times[k], r.times[k], {v - off, v + off}});
             }
             for (auto const& f : findings) {
                 if (f.name != p.name || !f.place || !f.place->missing) continue;
                 auto const& [window, value, unit] = *f.place->missing;
                 if (window.scenario != r.scenario) continue;
-                d.certified.push_back({window.from, window.to, value});
+                d.windows.push_back({window.from, window.to, value});
             }
-            result.push_back(std::move(d));
+            result.push_back({p.name, r.scenario, std::move(d)});
         }
     }
     return result;

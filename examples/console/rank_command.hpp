@@ -12,8 +12,8 @@
 #include <sivid/io/decision_json.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
-#include <sivid/report/ranking_page.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>

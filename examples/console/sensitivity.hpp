@@ -6,7 +6,7 @@
 
 #include "diagnosis_output.hpp"
 
-#include <sivid/report/table.hpp>
+#include <sivid/report/page.hpp>
 
 #include <algorithm>
 #include <cmath>

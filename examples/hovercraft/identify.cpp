@@ -25,7 +25,6 @@
 #include <sivid/io/text/durable_file.hpp>
 #include <sivid/paving/outlier_budget.hpp>
 #include <sivid/report/draw/time_plot.hpp>
-#include <sivid/report/identifiability_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_words.hpp>

@@ -9,7 +9,7 @@
 
 #include <sivid/io/file_set.hpp>
 #include <sivid/number/decimal_output.hpp>
-#include <sivid/report/draw/bar_chart.hpp>
+#include <sivid/report/draw/charts.hpp>
 #include <sivid/report/page.hpp>
 #include <sivid/version.hpp>
 

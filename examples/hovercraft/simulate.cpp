@@ -9,7 +9,7 @@
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/number/decimal_output.hpp>
-#include <sivid/report/draw/plane_plot.hpp>
+#include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/page.hpp>
 #include <sivid/version.hpp>

@@ -34,7 +34,7 @@ inline std::map<std::string_view, std::vector<std::string_view>> const rooms{
     {"io", {"text", "dataset", "result"}},
     {"verifier", {"proof", "claim"}},
     {"importing", {"mapping", "table", "scenario"}},
-    {"report", {"text", "draw", "words", "page", "fill"}}};
+    {"report", {"draw"}}};
 
 /// The room of sivid/floor/room/...; "" for a door.
 inline std::string room_of(std::filesystem::path const& name) {

@@ -158,10 +158,10 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
          {"candidate/screening.hpp", "place/detail/place_estimate.hpp"}},
         {"sivid/diagnosis/impl/identify_remembering.ipp", {"candidate/screening.hpp"}},
         {"sivid/cluster/diagnose.hpp", {"candidate/screening.hpp"}},
-        {"sivid/report/fill/detail/scenario_report.hpp", {"simulate/simulate.hpp"}},
+        {"sivid/report/impl/identification_report.ipp", {"simulate/simulate.hpp"}},
         {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/detail/counterexample.hpp"}},
-        {"sivid/verifier/claim/detail/inflation_proof.hpp", {"fit/detail/counterexample.hpp"}},
-        {"sivid/verifier/claim/detail/fewest_outliers_check.hpp",
+        {"sivid/verifier/impl/diagnosis_check.ipp", {"fit/detail/counterexample.hpp"}},
+        {"sivid/verifier/claim/detail/witness_checks.hpp",
          {"fit/detail/counterexample.hpp"}}};
     std::string_view const floor = "sivid/approximate/";
     if (!starts_with(other, floor) || starts_with(includer, floor)) return true;

@@ -3,7 +3,7 @@
 // is said to explain the data does, by the recorded inputs.
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/inflation.hpp>
-#include <sivid/verifier/proof/detail/proved_campaign.hpp>
+#include <sivid/verifier/proof/detail/plain_proof.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"

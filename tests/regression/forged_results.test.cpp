@@ -5,7 +5,7 @@
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/paving/identify.hpp>
-#include <sivid/verifier/claim/detail/identification_consistency.hpp>
+#include <sivid/verifier/claim/detail/stored_claims.hpp>
 #include <sivid/verifier/identification_check.hpp>
 
 #include "io/stored_result.hpp"

@@ -4,7 +4,7 @@
 
 #include "decision/planar_models.hpp"
 
-#include <sivid/report/design_page.hpp>
+#include <sivid/report/decision_page.hpp>
 
 #include <memory>
 #include <string>

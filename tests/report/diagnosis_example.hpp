@@ -2,7 +2,7 @@
 #ifndef SIVID_TESTS_REPORT_DIAGNOSIS_EXAMPLE_HPP
 #define SIVID_TESTS_REPORT_DIAGNOSIS_EXAMPLE_HPP
 
-#include <sivid/report/diagnosis_report.hpp>
+#include <sivid/report/diagnosis_page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ inline sivid::report::compared_scenario example_scenario(std::string name, bool 
     static double const bounds[] = {0.06, 0.05, 0.05, 0.05, 0.05, 0.03};
     sivid::report::compared_scenario out{.name = std::move(name), .holdout = holdout};
     for (std::size_t c = 0; c < 6; ++c) {
-        sivid::report::comparison_series d{.name = names[c], .unit = units[c]};
+        sivid::report::channel_series d{.name = names[c], .unit = units[c]};
         double const e = bounds[c];
         for (int k = 0; k <= (c > 2 && c < 5 ? 20 : 40); ++k) {
             double const t = duration * k / (c > 2 && c < 5 ? 20 : 40);
@@ -80,20 +80,20 @@ inline sivid::report::compared_scenario example_scenario(std::string name, bool 
     return out;
 }
 
-inline sivid::report::missing_rate_series example_rate(std::string equation, std::string scenario,
-                                                       double size, double phase) {
-    sivid::report::missing_rate_series out{std::move(equation), std::move(scenario),
-                                           size > 1 ? "rad/s^2" : "m/s^2"};
+inline sivid::report::missing_rate example_rate(std::string equation, std::string scenario,
+                                                double size, double phase) {
+    sivid::report::channel_series c{.unit = size > 1 ? "rad/s^2" : "m/s^2"};
     for (int k = 0; k <= 60; ++k) {
         double const t = k / 12.0, y = size * std::sin(2.2 * t + phase);
         double const off = 0.15 * size + 0.5 * size * std::exp(-3 * t);
-        out.estimate.push_back({t, y, {y - off, y + off}});
+        c.after.push_back({t, y});
+        c.band.push_back({t, t, {y - off, y + off}});
     }
     for (double const t : {0.3, 1.2, 2.4, 3.9}) {
         double const y = size * std::sin(2.2 * (t + 0.3) + phase);
-        out.certified.push_back({t, t + 0.6, {y - 0.4 * size, y + 0.4 * size}});
+        c.windows.push_back({t, t + 0.6, {y - 0.4 * size, y + 0.4 * size}});
     }
-    return out;
+    return {std::move(equation), std::move(scenario), std::move(c)};
 }
 
 inline diagnosis_example hovercraft_diagnosis() {

@@ -3,8 +3,8 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/report/detail/diagnosis_tables.hpp>
 #include <sivid/report/diagnosis_page.hpp>
-#include <sivid/report/page/detail/diagnosis_tables.hpp>
 
 #include <fstream>
 #include <limits>
@@ -85,7 +85,7 @@ TEST_CASE("diagnosis page: hostile texts stay texts") {
     v.confined = {{evil, {evil}, sivid::interval(2, 3)}};
     v.scenario_inflation[0].name = v.unobservable[0] = v.next->manoeuvre = evil;
     v.plots.missing_rates[0].equation = v.plots.missing_rates[0].scenario =
-        v.plots.missing_rates[0].unit = evil;
+        v.plots.missing_rates[0].rate.unit = evil;
     v.plots.scenarios[0].name = v.plots.scenarios[0].channels[0].name =
         v.plots.scenarios[0].channels[0].unit = evil;
     v.assumptions = v.about.warnings = {evil};
@@ -124,12 +124,13 @@ TEST_CASE("diagnosis page: extreme and undefined numbers, long names") {
     v.next->separation = inf;
     v.seconds = nan;
     v.interrupted = true;
-    v.plots.missing_rates[0].estimate[3] = {nan, nan, {nan, nan}};
-    v.plots.missing_rates[0].estimate[9].value = inf;
-    v.plots.missing_rates[0].certified[0].value = {-inf, inf};
-    v.plots.missing_rates[1].certified[1].value = {-1e300, 1e300};
-    v.plots.missing_rates[2].estimate.clear();
-    v.plots.missing_rates[3] = {"yaw", "nothing", "", {}, {}};
+    v.plots.missing_rates[0].rate.after[3] = {nan, nan};
+    v.plots.missing_rates[0].rate.band[3] = {nan, nan, {nan, nan}};
+    v.plots.missing_rates[0].rate.after[9].y = inf;
+    v.plots.missing_rates[0].rate.windows[0].value = {-inf, inf};
+    v.plots.missing_rates[1].rate.windows[1].value = {-1e300, 1e300};
+    v.plots.missing_rates[2].rate.after.clear();
+    v.plots.missing_rates[3] = {"yaw", "nothing", {}};
     v.plots.scenarios[0].channels[0].before[7] = {nan, inf};
     v.plots.scenarios[0].channels[1].before[7].y = 1e300;
     v.plots.scenarios[0].channels[2].misfit_before[3] = {nan, nan};
@@ -173,7 +174,7 @@ TEST_CASE("diagnosis page: a gap that nothing explains") {
         c.witness.reset();
     }
     for (compared_scenario& s : v.plots.scenarios) {
-        for (comparison_series& c : s.channels) {
+        for (channel_series& c : s.channels) {
             c.after.clear();
             c.misfit_after.clear();
             c.tube.clear();

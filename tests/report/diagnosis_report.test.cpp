@@ -3,7 +3,7 @@
 #include "support/catch.hpp"
 
 #include <sivid/model/effects.hpp>
-#include <sivid/report/diagnosis_report.hpp>
+#include <sivid/report/diagnosis_page.hpp>
 
 using namespace sivid::report;
 using namespace sivid_tests;

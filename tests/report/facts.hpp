@@ -8,7 +8,7 @@
 #include <string_view>
 
 /// What a test asks of prose: names, numbers and "proved" or "estimate" in their order, whatever
-/// the words between them. Whole pages are in golden_page.test.cpp.
+/// the words between them.
 namespace sivid_tests {
 
 /// The first fact that does not stand after those before it; empty where all do.

@@ -2,7 +2,7 @@
 #ifndef SIVID_TESTS_REPORT_HOVERCRAFT_VIEW_HPP
 #define SIVID_TESTS_REPORT_HOVERCRAFT_VIEW_HPP
 
-#include <sivid/report/identification_view.hpp>
+#include <sivid/report/identification_page.hpp>
 
 #include <array>
 #include <cmath>

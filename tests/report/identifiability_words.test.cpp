@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/report/identifiability_words.hpp>
+#include <sivid/report/identification_report.hpp>
 
 #include "report/facts.hpp"
 #include "support/catch.hpp"

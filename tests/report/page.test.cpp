@@ -2,9 +2,7 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/draw/bar_chart.hpp>
-#include <sivid/report/draw/detail/interval_chart.hpp>
-#include <sivid/report/draw/heat_map.hpp>
+#include <sivid/report/draw/charts.hpp>
 #include <sivid/report/page.hpp>
 
 #include <cmath>
@@ -28,9 +26,9 @@ TEST_CASE("page: every element, well-formed, in order, with ids that do not clas
                             : std::exp(2.2 * std::sin(0.2 * k + 2 * c) - (c == 2 ? -0.8 : 1.4)));
         }
     }
-    svg const bars = draw_bar_chart({{"rudder_lag", {0.97, 0.98}, "explains"},
-                                     {"wind", {2.4, 2.6}, "excluded"},
-                                     {"input_delay", {0.8, 3.3}, "undecided"},
+    svg const bars = draw_bar_chart({{"rudder_lag", {0.97, 0.98}},
+                                     {"wind", {2.4, 2.6}},
+                                     {"input_delay", {0.8, 3.3}},
                                      {"(nothing added)", {3.1, 3.2}}},
                                     {.width = 1000,
                                      .quantity = "inflation that is left",
@@ -77,4 +75,15 @@ TEST_CASE("page: every element, well-formed, in order, with ids that do not clas
     CHECK(text.find("Figure 3.") == std::string::npos);
     CHECK(text.find("one</li>") < text.find("two</li>"));
     CHECK(text.find("<footer>") > text.find("four</li>"));
+}
+
+TEST_CASE("a heading without content is left out, one of a section with content below stands") {
+    page p{{.kind = "k", .title = "t"}};
+    p.section("Empty").subsection("Below it").bullets({}).add(table{});
+    p.section("Full").subsection("Nothing here").subsection("Something").prose("text");
+    p.section("Last");
+    std::string const text = p.str();
+    for (auto const* none : {"Empty", "Below it", "Nothing here", "Last"})
+        CHECK(text.find(none) == std::string::npos);
+    CHECK_THAT(text, ContainsSubstring("<h2>Full</h2>\n<h3>Something</h3>\n<p>text</p>"));
 }

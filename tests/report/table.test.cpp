@@ -2,7 +2,7 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/table.hpp>
+#include <sivid/report/page.hpp>
 
 using namespace sivid::report;
 using namespace sivid_tests;
@@ -15,9 +15,11 @@ TEST_CASE("table: numbers to the right, texts escaped, empty columns left out") 
         .chosen_row = 1};
     std::string const text = table_html(t);
     CHECK(markup_error("<p>" + text + "</p>") == "");
-    CHECK_THAT(text, ContainsSubstring("<td class=\"number\" data-head=\"value &lt;x&gt;\">1.5</td>"));
+    CHECK_THAT(text,
+               ContainsSubstring("<td class=\"number\" data-head=\"value &lt;x&gt;\">1.5</td>"));
     CHECK_THAT(text, ContainsSubstring("&lt;a&gt;"));
     CHECK(text.find("nothing") == std::string::npos);
     CHECK(text.find("too long") == std::string::npos);
-    CHECK_THAT(text, ContainsSubstring("<tr class=\"chosen\"><td class=\"symbol\" data-head=\"name\">b"));
+    CHECK_THAT(text,
+               ContainsSubstring("<tr class=\"chosen\"><td class=\"symbol\" data-head=\"name\">b"));
 }

@@ -6,8 +6,6 @@
 #include <sivid/model/describe.hpp>
 #include <sivid/model/named_effects.hpp>
 #include <sivid/report/diagnosis_page.hpp>
-#include <sivid/report/diagnosis_report.hpp>
-#include <sivid/report/fill/detail/diagnosis_plot_data.hpp>
 #include <sivid/report/identification_page.hpp>
 
 #include "diagnosis/small_catalogue.hpp"

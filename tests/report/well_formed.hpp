@@ -2,7 +2,7 @@
 #ifndef SIVID_TESTS_REPORT_WELL_FORMED_HPP
 #define SIVID_TESTS_REPORT_WELL_FORMED_HPP
 
-#include <sivid/report/page/detail/page_script.hpp>
+#include <sivid/report/detail/page_assets.hpp>
 
 #include <cctype>
 #include <cstddef>

@@ -2,7 +2,6 @@
 #ifndef SIVID_IMPL_VERIFIER_IPP
 #define SIVID_IMPL_VERIFIER_IPP
 
-#include <sivid/verifier/claim/impl/identifiability_check.ipp>
 #include <sivid/verifier/impl/diagnosis_check.ipp>
 #include <sivid/verifier/impl/identification_check.ipp>
 #include <sivid/verifier/impl/predict_from.ipp>

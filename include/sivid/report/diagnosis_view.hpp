@@ -3,8 +3,7 @@
 #define SIVID_REPORT_DIAGNOSIS_VIEW_HPP
 
 #include <sivid/diagnosis/diagnosis.hpp>
-#include <sivid/report/draw/comparison_plot.hpp>
-#include <sivid/report/draw/missing_rate_plot.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -30,14 +29,20 @@ struct diagnosis_report_options {
 struct compared_scenario {
     std::string name{};
     bool holdout = false; ///< its data are used neither for fits nor for choices
-    std::vector<comparison_series> channels{};
+    std::vector<channel_series> channels{};
+};
+
+/// What one equation lacks in one scenario, over time: an estimate with its band, proved windows.
+struct missing_rate {
+    std::string equation{}, scenario{};
+    channel_series rate{};
 };
 
 /// What the page draws beside the diagnosis.
 struct diagnosis_plot_data {
     std::vector<compared_scenario> scenarios{};
-    std::vector<missing_rate_series> missing_rates{};
-    std::vector<missing_rate_series> remaining_rates{}; ///< with the closest candidate
+    std::vector<missing_rate> missing_rates{};
+    std::vector<missing_rate> remaining_rates{}; ///< with the closest candidate
 };
 
 /// A diagnosis whose causes include the model as it is (`view_of`).

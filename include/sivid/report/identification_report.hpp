@@ -6,20 +6,47 @@
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/identification_json.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
-#include <sivid/report/fill/plane_channels.hpp>
-#include <sivid/report/identification_view.hpp>
+#include <sivid/paving/run/run_reach.hpp>
+#include <sivid/report/identification_page.hpp>
+#include <sivid/report/number_text.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sivid::report {
+
+/// Which channels are a position in the plane; `heading` may be empty.
+struct plane_channels {
+    std::string x = "x";
+    std::string y = "y";
+    std::string heading{};
+};
+
+// What data can tell about their unknowns, in sentences that keep what is proved apart from what
+// is computed in floating point.
+
+/// One sentence a line: the ranks, what is free, what acts through which combinations, and the
+/// directions that the data notice least.
+/// @param directions  so many at most
+[[nodiscard]] SIVID_DECL std::vector<std::string>
+identifiability_words(identifiability const& found, std::size_t directions = 3);
+
+/// Why runs over all that is left tell little, and what to change: a sentence for each of the first
+/// experiments that say something, from what they measured.
+/// @param ended_by_itself  the search did: more time would find the same
+[[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach,
+                                                              bool ended_by_itself = false);
+
+/// Why an identification excluded little: first that what was proved inside stays, then what its
+/// runs tell. Empty where much was excluded.
+[[nodiscard]] SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
+                                                              identification const& found);
 
 struct identification_report_options {
     std::string dataset{};
@@ -30,14 +57,6 @@ struct identification_report_options {
     /// False leaves out what is still to be simulated or evaluated for the pictures; may be empty.
     std::function<bool()> keep_going{};
 };
-
-namespace detail {
-
-/// A share of the prior, widened a little where its bounds agree to many digits, so that it reads
-/// well; still an enclosure.
-SIVID_DECL range shown_share(interval const& volume);
-
-} // namespace detail
 
 /// What the page of an identification shows; `identification_page` makes the page.
 /// @param motion  the tubes to draw, or null

@@ -4,8 +4,8 @@
 
 #include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
-#include <sivid/report/draw/plane_plot.hpp>
 #include <sivid/report/draw/time_plot.hpp>
+#include <sivid/report/number_text.hpp>
 #include <sivid/report/page.hpp>
 
 #include <cstddef>
@@ -49,7 +49,6 @@ struct outlier_view {
 
 struct scenario_view {
     std::string name{};
-    std::string role = "fit";
     std::size_t measurements = 0;
     std::size_t outlier_budget = 0;
     std::vector<channel_series> channels{};

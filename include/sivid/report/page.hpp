@@ -3,21 +3,45 @@
 #define SIVID_REPORT_PAGE_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/report/draw/legend.hpp>
+#include <sivid/report/draw/axes.hpp>
 #include <sivid/report/draw/svg.hpp>
-#include <sivid/report/page/detail/page_script.hpp>
-#include <sivid/report/page/detail/page_style.hpp>
-#include <sivid/report/table.hpp>
-#include <sivid/report/text/escape.hpp>
+#include <sivid/report/number_text.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace sivid::report {
+
+enum class column_kind {
+    text,
+    symbol, ///< a name that stands out
+    number, ///< right-aligned, digits of equal width
+    note    ///< quiet text
+};
+
+struct column {
+    std::string head{};
+    column_kind kind = column_kind::text;
+};
+
+/// Columns by their heads, with '|' between them. A sign in front says which kind: * a name, # a
+/// number, ~ a note.
+[[nodiscard]] SIVID_DECL std::vector<column> columns(std::string_view heads);
+
+/// A table of finished texts; short rows are filled with empty cells, long ones cut.
+struct table {
+    std::vector<column> columns{};
+    std::vector<std::vector<std::string>> rows{};
+    std::string caption{};
+    std::optional<std::size_t> chosen_row{}; ///< set off from the others
+};
+
+/// The table as HTML. A column without any entry is left out.
+[[nodiscard]] SIVID_DECL std::string table_html(table const& t);
 
 /// How a page's main statement stands.
 enum class outcome { proved, undecided, refuted };
@@ -60,14 +84,17 @@ public:
 
     /// The verdict in one sentence; sign and words say it beside the colour.
     page& banner(outcome how, std::string_view headline, std::string_view sentence);
-    page& section(std::string_view title) { return element("h2", title); }
-    page& subsection(std::string_view title) { return element("h3", title); }
+    /// A heading stands as soon as something is below it; without content it is left out.
+    page& section(std::string_view title);
+    page& subsection(std::string_view title);
     page& prose(std::string_view text) { return text.empty() ? *this : element("p", text); }
 
     page& cards(std::vector<card> const& all);
     page& add(table const& t);
     page& add(figure const& f);
-    page& bullets(std::vector<std::string> const& lines);
+    page& bullets(std::vector<std::string> const& lines) { return put(list(lines)); }
+    /// Clauses with a full stop.
+    page& sentences(std::vector<std::string> clauses);
     /// "What was proved, in plain words."
     page& plain_words(std::vector<std::string> const& lines);
     /// What the proofs rest on.
@@ -84,16 +111,19 @@ public:
     friend std::ostream& operator<<(std::ostream& out, page const& p) { return out << p.str(); }
 
 private:
+    /// Content; the headings that wait for it come before.
+    page& put(std::string const& html);
     page& element(std::string const& name, std::string_view text);
     /// Escaped; lines may end behind an underscore, which names have instead of spaces.
     static std::string breakable(std::string_view text);
     static std::string list(std::vector<std::string> const& lines);
     page& boxed(std::string const& style, std::string_view title,
                 std::vector<std::string> const& lines);
-    std::string next_prefix() { return std::string{"f"} + std::to_string(++pictures_) + "-"; }
+    std::string next_prefix() { return "f" + std::to_string(++pictures_) + "-"; }
 
     std::string title_;
     std::string body_;
+    std::string section_, subsection_; ///< that wait for content
     std::string footer_;
     int figures_ = 0;
     int pictures_ = 0;

@@ -8,7 +8,7 @@
 #include <sivid/model/effect.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/judge/feasibility_test_options.hpp>
-#include <sivid/verifier/claim/check_finding.hpp>
+#include <sivid/verifier/check_finding.hpp>
 
 #include <functional>
 #include <vector>

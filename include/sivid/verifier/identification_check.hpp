@@ -7,8 +7,7 @@
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/interval.hpp>
-#include <sivid/verifier/claim/check_finding.hpp>
-#include <sivid/verifier/claim/identification_check_options.hpp>
+#include <sivid/verifier/check_finding.hpp>
 
 #include <functional>
 #include <type_traits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/report/detail/reach_words.hpp>
+#include <sivid/report/identification_report.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"

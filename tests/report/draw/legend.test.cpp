@@ -2,7 +2,7 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/draw/legend.hpp>
+#include <sivid/report/draw/axes.hpp>
 
 #include <set>
 #include <string>

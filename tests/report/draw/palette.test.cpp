@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
 
-#include <sivid/report/draw/palette.hpp>
+#include <sivid/report/draw/svg.hpp>
 
 #include <cmath>
 #include <string>

@@ -2,7 +2,7 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/draw/plane_plot.hpp>
+#include <sivid/report/draw/paving_plot.hpp>
 
 #include <cmath>
 
@@ -32,7 +32,7 @@ TEST_CASE("plane plot: joining boxes keeps all of them covered") {
     for (int k = 0; k < 1001; ++k) {
         boxes.push_back({{k * 1.0, k + 1.0}, {-1.0 * k, 0}});
     }
-    auto const few = detail::joined(boxes, 100);
+    auto const few = merged(boxes, 100);
     CHECK(few.size() <= 100);
     for (plane_box const& b : boxes) {
         bool covered = false;
@@ -42,7 +42,7 @@ TEST_CASE("plane plot: joining boxes keeps all of them covered") {
         }
         REQUIRE(covered);
     }
-    CHECK(detail::joined(std::vector<plane_box>{}, 0).empty());
+    CHECK(merged(std::vector<plane_box>{}, 0).empty());
 }
 
 TEST_CASE("plane plot: many boxes stay small, wild ones stay finite") {

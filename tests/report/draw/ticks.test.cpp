@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
 
-#include <sivid/report/draw/ticks.hpp>
+#include <sivid/report/draw/axes.hpp>
 
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/text/escape.hpp>
+#include <sivid/report/number_text.hpp>
 
 #include <cstdint>
 #include <string>

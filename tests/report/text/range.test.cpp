@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
 
-#include <sivid/report/text/range.hpp>
+#include <sivid/report/number_text.hpp>
 
 using namespace sivid::report;
 

@@ -4,19 +4,71 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/number/text/nearest_text.hpp>
+#include <sivid/paving/subpaving.hpp>
 #include <sivid/report/draw/axes.hpp>
-#include <sivid/report/draw/detail/paving_raster.hpp>
-#include <sivid/report/draw/legend.hpp>
+#include <sivid/report/number_text.hpp>
+#include <sivid/space/box.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
+/// The shadow of a paving on a plane.
+///
+/// Rule: a point of the plane is *inside* when some inside box projects onto it; otherwise
+/// *undecided* when an undecided box does; otherwise *pending* when a pending box does; it is
+/// *outside* only when everything above it is outside.
 namespace sivid::report {
+
+enum class region : std::uint8_t { outside, pending, undecided, inside };
+
+/// One box of the paving, projected on two of its coordinates.
+struct projected_box {
+    range x{};
+    range y{};
+    region verdict = region::undecided;
+};
+
+inline constexpr std::string_view projection_rule =
+    "A point of a projection is painted inside when at least one proven-inside box lies above it; "
+    "undecided or pending "
+    "when the best box above it is undecided or pending; outside only when every box above it is "
+    "proved outside.";
+
+/// The plane cut in cells by break points, each cell with the best region above it.
+struct region_raster {
+    std::vector<double> xs{};
+    std::vector<double> ys{};
+    std::vector<region> cells{}; ///< row by row, (ys.size()-1) rows of xs.size()-1
+    bool exact = true; ///< the breaks are the boxes' own ends; else each cell has the best region
+                       ///< that touches it
+    [[nodiscard]] std::size_t columns() const { return xs.size() - 1; }
+    [[nodiscard]] std::size_t rows() const { return ys.size() - 1; }
+    [[nodiscard]] region at(std::size_t column, std::size_t row) const {
+        return cells[row * columns() + column];
+    }
+};
+
+/// A merged rectangle of cells of one region.
+struct region_rect {
+    std::size_t left, right, low, high; ///< cell numbers, right and high exclusive
+    region what;
+};
+
+/// Projects boxes on a window of the plane, at most `most` cells a side. What no box covers is
+/// outside: contraction removes proven-outside parts without leaving a box.
+/// @given  window finite, of positive width
+/// @cost   O(boxes log(cells) + cells), whatever the overlap
+[[nodiscard]] SIVID_DECL region_raster project_paving(std::vector<projected_box> const& boxes,
+                                                      range const& x, range const& y,
+                                                      std::size_t most);
+
+/// Joins cells of one region to rectangles: runs along rows, equal runs over rows. The outside is
+/// left out (it is the ground).
+[[nodiscard]] SIVID_DECL std::vector<region_rect> merge_cells(region_raster const& raster);
 
 /// The projection of a paving on two parameters. Outside boxes may be left out: what no box covers
 /// counts as outside.
@@ -74,6 +126,63 @@ paving_plot_legend(std::vector<paving_projection> const& all, paving_words const
 /// until they fit.
 [[nodiscard]] SIVID_DECL svg draw_paving_plot(paving_projection const& p,
                                               paving_plot_options const& o = {});
+
+/// A paving with what its sides are called.
+struct named_paving {
+    subpaving const* paving = nullptr;
+    std::vector<axis> sides{};     ///< bounds: the prior
+    std::vector<range> hull{};     ///< per side: what the data leave of it
+    std::vector<double> witness{}; ///< a verified point; may be empty
+};
+
+/// The projections worth a picture: on all pairs of sides when these are few, else of the four that
+/// the data narrow most.
+/// @param first  sides whose pairs come first
+/// @param most   so many projections
+[[nodiscard]] SIVID_DECL std::vector<paving_projection>
+projections(named_paving const& p, std::vector<std::size_t> const& first, std::size_t most);
+
+/// A box of the plane.
+struct plane_box {
+    range x{};
+    range y{};
+};
+
+/// A place and heading [rad] of the craft on the non-validated line.
+struct pose {
+    double x = 0;
+    double y = 0;
+    double heading = 0;
+};
+
+/// A motion in the plane.
+struct plane_series {
+    std::string x_name = "x";
+    std::string y_name = "y";
+    std::string unit = "m";
+    std::vector<plane_box> tube{};     ///< proven enclosures, one for each step
+    std::vector<plane_box> measured{}; ///< measured position intervals
+    std::vector<point> reference{};    ///< not validated
+    std::vector<pose> poses{};         ///< not validated; drawn as small arrowheads
+};
+
+struct plane_plot_options {
+    double width = 740;
+    double height = 300;
+    std::string title{};
+};
+
+[[nodiscard]] SIVID_DECL std::vector<legend_entry> plane_plot_legend(plane_series const& s);
+
+/// Joins neighbours by their hull until at most `most` boxes are left.
+[[nodiscard]] SIVID_DECL std::vector<plane_box> merged(std::vector<plane_box> boxes,
+                                                       std::size_t most);
+
+/// A motion seen from above: the proven boxes step by step, the measured positions and a
+/// reference line that is not validated; equal scales on both axes. Beyond some thousand boxes
+/// neighbours are joined, which only enlarges them.
+[[nodiscard]] SIVID_DECL svg draw_plane_plot(plane_series const& s,
+                                             plane_plot_options const& o = {});
 
 } // namespace sivid::report
 

@@ -4,63 +4,85 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/report/draw/axes.hpp>
-#include <sivid/report/draw/channel_series.hpp>
-#include <sivid/report/draw/legend.hpp>
+#include <sivid/report/draw/svg.hpp>
+#include <sivid/report/number_text.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 namespace sivid::report {
+
+/// What is known about one measured interval.
+enum class sample_state {
+    regular,
+    forced_outlier, ///< violated, by proof, by every parameter that explains the data
+    suspect         ///< violated by the witness
+};
+
+/// One measured interval and, where it is known, the proven enclosure of the model's output then.
+struct measured_sample {
+    double time = 0;
+    range value{};
+    sample_state state = sample_state::regular;
+    range enclosure{};
+};
+
+/// The proven enclosure of a channel over a time span.
+struct tube_piece {
+    double from = 0;
+    double to = 0;
+    range value{};
+};
+
+/// What is drawn of one quantity over time. What is called proved is; lines are not validated.
+struct channel_series {
+    std::string name{};
+    std::string unit{};
+    std::vector<measured_sample> measured{};
+    std::vector<tube_piece> tube{}; ///< proved, in order of time
+    std::vector<point> reference{}; ///< (t, value): one motion
+    std::string time_unit = "s";
+    std::vector<point> before{};        ///< the first of two motions that are compared, dashed
+    std::vector<point> after{};         ///< the second, or an estimate: a full line
+    std::vector<point> misfit_before{}; ///< (t, |y - m| / bound)
+    std::vector<point> misfit_after{};
+    std::vector<tube_piece> band{};    ///< uncertainty of an estimate, at its times
+    std::vector<tube_piece> windows{}; ///< proved bounds of the mean over each window
+    bool zero = false;                 ///< draw the line of 0
+    bool margin = false;               ///< must not fall below it
+};
+
+/// What the parts of a drawing are, in its legend.
+struct series_words {
+    std::string tube = "proven enclosure of the model";
+    std::string before = "model as it is, best fit (estimate)";
+    std::string after = "estimate";
+};
+
+/// The legend of time plots, with the symbols that the series use.
+[[nodiscard]] SIVID_DECL std::vector<legend_entry>
+time_plot_legend(std::vector<channel_series> const& all, series_words const& words = {});
+
+/// The time that a plot of the series shows.
+[[nodiscard]] SIVID_DECL range time_range(channel_series const& c);
+/// The values worth showing: regular measurements and the better lines decide; the tube, outliers
+/// and the worse line may stretch it by at most twice its width, so that one wild value does not
+/// flatten the rest.
+[[nodiscard]] SIVID_DECL range value_range(channel_series const& c);
 
 struct time_plot_options {
     double width = 360;
     double height = 230;
     std::string title{};
     range time{};                   ///< empty: what the data need
+    range values{};                 ///< likewise
     bool legend = false;            ///< draw the legend below (for a picture that stands alone)
     std::size_t most_samples = 400; ///< more are thinned evenly; outliers are always drawn
 };
 
-/// The legend of time plots, with the symbols that the series use.
-[[nodiscard]] SIVID_DECL std::vector<legend_entry>
-time_plot_legend(std::vector<channel_series> const& all);
-
-namespace detail {
-
-/// A frame over time.
-[[nodiscard]] inline axes time_axes(time_plot_options const& o, range const& time,
-                                    std::string const& unit, axis y) {
-    return {{"time", unit, is_empty(o.time) ? time : o.time},
-            std::move(y),
-            {.width = o.width, .height = o.height, .title = o.title}};
-}
-
-/// Draws bars for the regular samples, one in `stride`. @returns the others
-SIVID_DECL std::vector<measured_sample const*> draw_regular(svg& out, axes const& a,
-                                                            channel_series const& c,
-                                                            std::size_t stride,
-                                                            std::string_view colour);
-
-/// Draws the tube: one outline for each run without a gap; pieces thinner than half a unit of the
-/// drawing are joined by their hull, so the picture never shows less than the tube.
-SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube);
-
-SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
-                               paint const& how = {
-                                   .stroke = palette::truth, .width = 1.2, .dash = "5 3"});
-
-/// Draws the symbol of a marked sample, or an arrow at the frame when it lies outside.
-SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
-                             std::string_view tip);
-
-} // namespace detail
-
-/// Measured intervals over time as bars, the proven tube as a band, outliers marked, and a
-/// reference line that is not validated: the report's Figure 4.1.
+/// Measured intervals over time as bars, the proven tube as a band, outliers marked, and lines that
+/// are not validated: the report's Figure 4.1.
 /// @cost  O(samples + pieces); the text grows with neither beyond a few hundred marks
 [[nodiscard]] SIVID_DECL svg draw_time_plot(channel_series const& c,
                                             time_plot_options const& o = {});

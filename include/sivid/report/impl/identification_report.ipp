@@ -4,29 +4,252 @@
 
 #include <sivid/report/identification_report.hpp>
 
-#include <sivid/io/explaining_motion.hpp>
-#include <sivid/model/problem.hpp>
+#include <sivid/approximate/simulate/simulate.hpp>
+#include <sivid/enclosure/tube.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/paving/excluded_between.hpp>
-#include <sivid/paving/identification.hpp>
-#include <sivid/report/detail/reach_words.hpp>
-#include <sivid/report/draw/detail/paving_projections.hpp>
-#include <sivid/report/fill/detail/scenario_report.hpp>
-#include <sivid/report/identification_view.hpp>
-#include <sivid/report/identification_words.hpp>
+#include <sivid/paving/verdict.hpp>
+#include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>
-#include <cstddef>
-#include <string>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <memory>
 #include <utility>
-#include <vector>
 
 namespace sivid::report {
 
 namespace detail {
 
-SIVID_DECL range shown_share(interval const& volume) {
+inline std::string nearest_text(double x) {
+    return rounded_text(x, rounding::nearest, {.significant = 2});
+}
+
+/// "L * k, Sg / k" or "a + s, b - 2 s": what may move together.
+inline std::string motion_text(free_motion const& m, std::vector<unknown_quantity> const& names) {
+    bool const scales = m.kind == motion_kind::scaling;
+    std::string text;
+    for (std::size_t c = 0; c < m.weights.size(); ++c) {
+        int const w = m.weights[c];
+        if (w == 0) continue;
+        auto const size = std::to_string(std::abs(w));
+        if (!text.empty()) text += ", ";
+        text += names[c].name + (scales ? (w > 0 ? " * k" : " / k") : (w > 0 ? " + " : " - "));
+        if (std::abs(w) > 1) text += scales ? "^" + size : size + " ";
+        if (!scales) text += "s";
+    }
+    return text;
+}
+
+/// The components that matter, largest first: "L +1, Sg -0.12".
+inline std::string direction_text(sensitive_direction const& d,
+                                  std::vector<unknown_quantity> const& names) {
+    std::vector<std::size_t> order;
+    for (std::size_t c = 0; c < d.components.size(); ++c) {
+        if (std::abs(d.components[c]) >= 0.05) order.push_back(c);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::abs(d.components[a]) > std::abs(d.components[b]);
+    });
+    std::string text;
+    for (auto const c : order) {
+        double const x = d.components[c];
+        if (!text.empty()) text += ", ";
+        text += names[c].name + (x < 0 ? " -" : " +") + nearest_text(std::abs(x));
+    }
+    return text;
+}
+
+} // namespace detail
+
+SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found,
+                                                          std::size_t directions) {
+    auto const count = [](std::size_t n, std::string const& what) {
+        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    };
+    std::vector<std::string> lines;
+    auto const n = found.unknowns.size();
+    std::string ranks =
+        count(found.outputs, "measured output") + " and " + count(n, "unknown") + ": rank ";
+    if (found.least_rank == found.most_rank) {
+        ranks += std::to_string(found.least_rank) + ", proved";
+    } else {
+        ranks += "at least " + std::to_string(found.least_rank) + " and at most " +
+                 std::to_string(found.most_rank) + ", proved; " +
+                 std::to_string(found.approximate_rank) + " in floating point";
+    }
+    if (found.missing > 0) ranks += "; " + count(found.missing, "output") + " not reached";
+    lines.push_back(std::move(ranks));
+    for (auto const& m : found.free) {
+        auto const moving =
+            std::count_if(m.weights.begin(), m.weights.end(), [](int w) { return w != 0; });
+        lines.push_back("free: " + detail::motion_text(m, found.unknowns) +
+                        (moving == 1 ? ": it does not act on the outputs" : "") +
+                        (m.proved ? " (by the equations)" : " (numerically, not proved)"));
+    }
+    for (auto const& m : found.nearly_free) {
+        lines.push_back("hardly noticed: " + detail::motion_text(m, found.unknowns) +
+                        " across the prior moves no output by more than " +
+                        rounded_text(m.noticed, rounding::up, {.significant = 2}) +
+                        " of its error bound (to first order)");
+    }
+    if (!found.fixed.empty())
+        lines.push_back("these act through " + joined(found.fixed, ", ", &fixed_formula::formula) +
+                        " alone");
+    if (!found.nearly_fixed.empty())
+        lines.push_back("these act nearly through " +
+                        joined(found.nearly_fixed, ", ", &fixed_formula::formula) + " alone");
+    std::size_t const told = std::min(found.approximate_rank, found.directions.size());
+    for (std::size_t k = told - std::min(told, directions); k < told; ++k) {
+        auto const& d = found.directions[k];
+        lines.push_back("along " + detail::direction_text(d, found.unknowns) +
+                        " of the prior's width an output moves by " +
+                        detail::nearest_text(d.noticed) + " error bounds (to first order)");
+    }
+    return lines;
+}
+
+namespace detail {
+
+inline std::string brief(double x, rounding way = rounding::nearest) {
+    return rounded_text(x, way, {.significant = 2});
+}
+
+inline std::string name_of(run_reach::cause const& c) {
+    return c.start ? "the start of " + c.name : formula_text(c.name);
+}
+
+/// A time that was enclosed, rounded down; what was meant is the decimal close to it.
+inline std::string at_least_brief(double time) { return brief(time * (1 + 1e-12), rounding::down); }
+
+/// "62 % of it by D33/Iz, 20 % by the start of r"
+inline std::string causes_text(run_reach const& r) {
+    std::string all;
+    for (std::size_t k = 0; k < std::min<std::size_t>(r.causes.size(), 3); ++k) {
+        auto const& c = r.causes[k];
+        all += (k == 0 ? "" : ", ") + brief(100 * c.share) + (k == 0 ? " % of it by " : " % by ") +
+               name_of(c);
+    }
+    return all;
+}
+
+/// Where trajectories end, and why.
+inline std::string end_text(run_reach const& r) {
+    auto const carried = r.until - r.begin;
+    auto words = carried > 0 ? "over all that is left, trajectories are enclosed for " +
+                                   at_least_brief(carried) + " of " + brief(r.end - r.begin) + " " +
+                                   r.time_unit + " only; there "
+                             : std::string{"over all that is left, trajectories are enclosed "
+                                           "nowhere; at the start "};
+    words += r.state + " is " + brief(r.width) + unit_suffix(r.unit) + " wide";
+    return words + (r.causes.empty() ? "" : " (" + causes_text(r) + ")");
+}
+
+inline std::string what_ends(run_reach const& r) {
+    auto const carried = r.until - r.begin;
+    auto words = end_text(r) + ". Scenarios shorter than " +
+                 brief(carried > 0 ? carried : r.end - r.begin) + " " + r.time_unit;
+    if (!r.causes.empty()) words += ", or a narrower range for " + name_of(r.causes.front()) + ",";
+    return words + " may tell more";
+}
+
+/// What is left moves measurements less than their bounds are wide.
+inline std::string what_hardly_moves(run_reach const& r) {
+    auto words =
+        "parameters and starts that are left move no measurement" +
+        (r.instants < r.measured
+             ? " (of " + count_text(r.instants) + " instants among " + count_text(r.measured) + ")"
+             : std::string{}) +
+        (r.complete() ? ""
+                      : " of the first " + at_least_brief(r.until - r.begin) + " " + r.time_unit) +
+        " by more than " + rounded_text(r.spread * (1 + 1e-9), rounding::up, {.significant = 2}) +
+        " of its error bound: such data hardly tell them apart; smaller bounds, or "
+        "motions that depend more on them, would";
+    return words + (r.complete() ? "" : ". Beyond that, " + end_text(r));
+}
+
+/// Empty where nothing but the boxes' size is in the way.
+inline std::string why_of(run_reach const& r, bool ended_by_itself) {
+    if (!r.complete() && r.interrupted)
+        return "no time was left to see how far trajectories are enclosed: a larger budget may "
+               "tell";
+    if (r.until > r.begin && r.spread < 1) return what_hardly_moves(r);
+    if (!r.complete()) return what_ends(r);
+    if (!(r.lost < 1))
+        return "trajectories over all that is left blur by " +
+               (std::isfinite(r.lost) ? brief(r.lost) : std::string{"any number of"}) +
+               " error bounds: more time, or shorter scenarios, may tell more";
+    if (ended_by_itself) return {};
+    return "trajectories over all that is left are enclosed to the end, and parameters and starts "
+           "move measurements by up to " +
+           brief(r.moved) + " error bounds: a larger budget may tell more";
+}
+
+/// What the equations divide by, and that it is, or may be, zero.
+inline std::string divisor_text(divisor const& d) {
+    bool const one = d.equations.size() == 1;
+    auto const near =
+        joined(d.near, ", ", [](auto const& n) { return n.first + " = " + brief(n.second); });
+    return std::string{one ? "The equation of " : "The equations of "} + enumeration(d.equations) +
+           (one ? " divides by " : " divide by ") +
+           (d.formula.empty() ? "a long expression" : d.formula) +
+           (d.zeros == zeros::some ? ", which is zero somewhere" : ", which may be zero") +
+           " within the prior and the limits of the states" +
+           (near.empty() ? "" : " (near " + near + ")") +
+           ": no trajectory is enclosed there. A prior, or limits, without it may tell more";
+}
+
+/// What no method could exclude; empty where that is not much.
+inline std::string proved_inside_text(identification const& found) {
+    double const inside = found.paving.inner_volume().lower();
+    if (!(inside >= 0.05)) return {};
+    return "At least " + at_least_percent(std::min(inside, 1.0)) +
+           " of the prior's volume is proved to explain the data: nothing of it can be excluded "
+           "by them. Smaller error bounds, further measurements, or motions that depend more on "
+           "the parameters would";
+}
+
+} // namespace detail
+
+SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach,
+                                                bool ended_by_itself) {
+    constexpr std::size_t most = 6;
+    std::vector<std::string> result;
+    for (auto const& r : reach) {
+        if (&r - reach.data() == most && reach.size() > most) {
+            result.push_back(count_text(reach.size() - most) +
+                             " further scenarios: see \xE2\x80\x9Creach\xE2\x80\x9D in the "
+                             "result file");
+            break;
+        }
+        auto const words = detail::why_of(r, ended_by_itself);
+        if (!words.empty()) result.push_back(r.scenario + ": " + words);
+    }
+    return result;
+}
+
+SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
+                                                identification const& found) {
+    std::vector<std::string> result;
+    if (!found.excludes_little()) return result;
+    if (auto words = detail::proved_inside_text(found); !words.empty())
+        result.push_back(std::move(words));
+    if (found.reach.empty() && found.reason == stop_reason::time_budget &&
+        !problem.model.has_memory())
+        result.push_back("No time was left to see why: a larger budget may tell");
+    for (auto const& d : found.divisors) result.push_back(detail::divisor_text(d));
+    for (auto& words : reach_words(found.reach, is_complete(found.reason)))
+        result.push_back(std::move(words));
+    return result;
+}
+
+namespace detail {
+
+/// A share of the prior, widened a little where its bounds agree to many digits, so that it reads
+/// well; still an enclosure.
+inline range shown_share(interval const& volume) {
     range const r = share_of_whole(volume);
     double const more = 5e-4 * r.hi;
     return r.lo == r.hi || r.hi - r.lo > more
@@ -47,11 +270,8 @@ public:
         add_combinations();
         add_inside_box();
         add_witness();
-        for (std::size_t e = 0; e < problem_.experiments.size(); ++e) {
-            view_.scenarios.push_back(
-                scenario_filler(problem_, found_, motion_, options_.plane, e, options_.keep_going)
-                    .view());
-        }
+        for (std::size_t e = 0; e < problem_.experiments.size(); ++e)
+            view_.scenarios.push_back(scenario(e));
         add_marked();
         add_meanings();
         add_pavings();
@@ -161,7 +381,7 @@ private:
                           ")";
         }
         view_.statistics.why = reach_words(problem_, found_);
-        view_.version = std::string{"sivid "} + std::string{version};
+        view_.version = "sivid " + std::string{version};
         view_.date = options_.date;
         view_.machine = options_.machine;
         view_.command = options_.command;
@@ -177,8 +397,6 @@ private:
     }
 
     void add_combinations() {
-        std::vector<std::string> entangled;
-        for (std::size_t const j : found_.entangled) entangled.push_back(names()[j]);
         for (combination_hull const& c : found_.combinations) {
             std::vector<std::string> members;
             for (std::size_t const j : found_.entangled) {
@@ -205,16 +423,22 @@ private:
         if (box == nullptr) return;
         std::vector<std::string> sides;
         for (std::size_t k = 0; k < box->size(); ++k) {
-            auto const* const side = products ? &products->map.sides()[k] : nullptr;
-            std::size_t const j = side ? side->parameter : k;
-            bool const product = side && side->product;
             auto const range = inward_text((*box)[k]);
             if (!range) return;
-            std::string const unit = unit_text(product ? side->product->unit : unit_of(j));
-            sides.push_back((product ? formula_text(side->product->formula) : names()[j]) + " in " +
-                            *range + (unit.empty() ? "" : " " + unit));
+            auto const unit = unit_text(products ? unit_of_side(k) : unit_of(k));
+            sides.push_back((products ? name_of_side(k) : names()[k]) + " in " + *range +
+                            (unit.empty() ? "" : " " + unit));
         }
         view_.inside_box = enumeration(sides);
+    }
+    /// Of the products that the search ran in.
+    [[nodiscard]] std::string name_of_side(std::size_t k) const {
+        auto const& side = found_.products->map.sides()[k];
+        return side.product ? formula_text(side.product->formula) : names()[side.parameter];
+    }
+    [[nodiscard]] std::string unit_of_side(std::size_t k) const {
+        auto const& side = found_.products->map.sides()[k];
+        return side.product ? side.product->unit : unit_of(side.parameter);
     }
 
     void add_witness() {
@@ -248,7 +472,7 @@ private:
         for (std::size_t e = 0; motion_ != nullptr && e < problem_.experiments.size(); ++e) {
             if (auto const& why = motion_->tubes[e]->failure()) {
                 view_.warnings.push_back(
-                    std::string{"The drawn enclosure of scenario "} + problem_.experiments[e].name +
+                    "The drawn enclosure of scenario " + problem_.experiments[e].name +
                     " ends early: " +
                     why->message(about().states[why->component].name, about().time_unit) + ".");
             }
@@ -263,24 +487,20 @@ private:
                                       "which nothing is proved";
         }
         if (motion_ == nullptr) return;
-        if (motion_->source == motion_source::best_guess) {
-            view_.tube_meaning = "the motion of the best fit found, which is not proved to explain "
-                                 "the data";
-            return;
+        if (motion_->source == motion_source::inside_box) {
+            std::vector<std::string> sides;
+            for (std::size_t j = 0; j < names().size(); ++j)
+                sides.push_back(names()[j] + " in " + outward_text(motion_->parameters[j]) +
+                                unit_suffix(unit_of(j)));
+            view_.tube_meaning = "all motions of a box of parameters that is proved to explain the "
+                                 "data, about " +
+                                 joined(sides);
+        } else {
+            view_.tube_meaning = motion_->source == motion_source::witness
+                                     ? "the motion of the witness"
+                                     : "the motion of the best fit found, which is not proved to "
+                                       "explain the data";
         }
-        if (motion_->source == motion_source::witness) {
-            view_.tube_meaning = "the motion of the witness";
-            return;
-        }
-        std::string box_text;
-        for (std::size_t j = 0; j < names().size(); ++j) {
-            box_text += (j == 0 ? "" : ", ") + names()[j] + " in " +
-                        outward_text(motion_->parameters[j]) + unit_suffix(unit_of(j));
-        }
-        view_.tube_meaning =
-            std::string{"all motions of a box of parameters that is proved to explain the "
-                        "data, about "} +
-            box_text;
     }
 
     /// Those of parameters that are known only through a combination come first.
@@ -301,16 +521,120 @@ private:
         auto const hull = map.forward(found_.hull);
         std::vector<std::size_t> products;
         for (std::size_t k = 0; k < map.sides().size(); ++k) {
-            auto const& side = map.sides()[k];
-            p.sides.push_back(
-                {side.product ? formula_text(side.product->formula) : names()[side.parameter],
-                 side.product ? side.product->unit : unit_of(side.parameter),
-                 map.problem().prior[k]});
+            p.sides.push_back({name_of_side(k), unit_of_side(k), map.problem().prior[k]});
             p.hull.push_back(hull[k]);
-            if (side.product) products.push_back(k);
+            if (map.sides()[k].product) products.push_back(k);
         }
         if (found_.witness) p.witness = mid(map.forward(point_box(found_.witness->parameters)));
         view_.product_pavings = projections(p, products, most_pavings);
+    }
+
+    /// What the page shows of one experiment: its measurements, the tube, the motion in the plane.
+    [[nodiscard]] scenario_view scenario(std::size_t e) const {
+        experiment const& s = problem_.experiments[e];
+        record const samples = sorted(s.measurements);
+        scenario_view out{
+            .name = s.name, .measurements = samples.size(), .outlier_budget = s.outliers};
+        auto const outputs = motion_ != nullptr ? motion_->outputs[e] : std::vector<interval>{};
+        std::vector<channel_series> all;
+        for (auto const& c : about().channels)
+            all.push_back({.name = c.name, .unit = c.unit, .time_unit = about().time_unit});
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            measured_sample m{
+                .time = samples[i].time, .value = samples[i].bound, .state = state_of(e, i)};
+            if (i < outputs.size() && is_finite(range{outputs[i]})) m.enclosure = outputs[i];
+            all[samples[i].channel].measured.push_back(m);
+        }
+        std::vector<std::size_t> measured;
+        for (std::size_t c = 0; c < all.size(); ++c) {
+            if (!all[c].measured.empty()) measured.push_back(c);
+        }
+        add_tube(e, all);
+        auto const line = add_reference(e, all);
+        if (options_.plane) out.plane = plane(all, samples, line);
+        for (std::size_t const c : measured) out.channels.push_back(std::move(all[c]));
+        return out;
+    }
+
+    [[nodiscard]] sample_state state_of(std::size_t e, std::size_t i) const {
+        for (forced_outlier const& f : found_.forced) {
+            if (f.experiment == e && f.measurement == i) return sample_state::forced_outlier;
+        }
+        bool const violated = found_.witness && e < found_.witness->violated.size() &&
+                              i < found_.witness->violated[e].size() &&
+                              found_.witness->violated[e][i];
+        return violated ? sample_state::suspect : sample_state::regular;
+    }
+
+    void add_tube(std::size_t e, std::vector<channel_series>& all) const {
+        if (motion_ == nullptr) return;
+        observer<interval> look(*motion_->flows[e]);
+        ensemble<interval> const family(motion_->starts[e], motion_->parameters);
+        look.set_ensemble(family);
+        for (auto const& step : motion_->tubes[e]->steps()) {
+            if (options_.keep_going && !options_.keep_going()) return;
+            auto const y = look.over(step.from, interval(step.from, step.to), step.swept);
+            for (std::size_t c = 0; c < all.size(); ++c) {
+                if (is_finite(range{y[c]})) all[c].tube.push_back({step.from, step.to, y[c]});
+            }
+        }
+    }
+
+    /// The line that is not validated. @returns its times and channels
+    [[nodiscard]] approximate_trajectory add_reference(std::size_t e,
+                                                       std::vector<channel_series>& all) const {
+        approximate_trajectory line;
+        bool const guessed = found_.guess && !found_.guess->parameters.empty();
+        if (motion_ == nullptr || (!found_.witness && !guessed)) return line;
+        auto const& s = problem_.experiments[e];
+        std::vector<double> times;
+        for (int k = 0; k <= 240; ++k) times.push_back(s.begin + (s.end() - s.begin) * k / 240);
+        auto const& point = found_.witness ? found_.witness->parameters : found_.guess->parameters;
+        auto const& start = found_.witness ? found_.witness->starts[e] : found_.guess->starts[e];
+        try {
+            auto const& f = *motion_->flows[e];
+            line = simulate(std::make_shared<approximate_model const>(f.model()), f.inputs(), start,
+                            point, s.begin, times, {1e-9, options_.keep_going});
+        } catch (std::exception const&) {
+            return {}; // a missing line is no loss: nothing rests on it
+        }
+        for (std::size_t k = 0; k < line.outputs.size(); ++k) {
+            for (std::size_t c = 0; c < all.size(); ++c)
+                all[c].reference.push_back({line.times[k], line.outputs[k][c]});
+        }
+        return line;
+    }
+
+    [[nodiscard]] std::optional<plane_series> plane(std::vector<channel_series> const& all,
+                                                    record const& samples,
+                                                    approximate_trajectory const& line) const {
+        auto const channel = [&](std::string const& name) {
+            auto const found = std::find_if(
+                all.begin(), all.end(), [&](channel_series const& c) { return c.name == name; });
+            return static_cast<std::size_t>(found - all.begin());
+        };
+        auto const x = channel(options_.plane->x), y = channel(options_.plane->y);
+        if (x == all.size() || y == all.size()) return std::nullopt;
+        plane_series out{.x_name = all[x].name, .y_name = all[y].name, .unit = all[x].unit};
+        for (std::size_t k = 0; k < std::min(all[x].tube.size(), all[y].tube.size()); ++k)
+            out.tube.push_back({all[x].tube[k].value, all[y].tube[k].value});
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            for (std::size_t k = i + 1; samples[i].channel == x && k < samples.size() &&
+                                        samples[k].time == samples[i].time;
+                 ++k) {
+                if (samples[k].channel == y)
+                    out.measured.push_back({samples[i].bound, samples[k].bound});
+            }
+        }
+        auto const heading = channel(options_.plane->heading);
+        for (std::size_t k = 0; k < line.outputs.size(); ++k) {
+            auto const& now = line.outputs[k];
+            out.reference.push_back({now[x], now[y]});
+            if (heading < all.size() && k % 30 == 15)
+                out.poses.push_back({now[x], now[y], now[heading]});
+        }
+        bool const nothing = out.measured.empty() && out.tube.empty();
+        return nothing ? std::nullopt : std::optional{std::move(out)};
     }
 
     identification_problem const& problem_;

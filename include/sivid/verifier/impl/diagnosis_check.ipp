@@ -4,35 +4,453 @@
 
 #include <sivid/verifier/diagnosis_check.hpp>
 
+#include <sivid/diagnosis/gap/detail/confined_gap.hpp> // first: its definitions include the next
+
+#include <sivid/approximate/fit/detail/counterexample.hpp>
+#include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
+#include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
+#include <sivid/diagnosis/candidate/detail/episode_hulls.hpp>
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/detail/embedded_problem.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
+#include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/diagnosis/diagnosis_run.hpp>
+#include <sivid/diagnosis/gap/detail/coarse_steps.hpp>
 #include <sivid/diagnosis/sensor/detail/sensor_discharge.hpp>
+#include <sivid/diagnosis/verification.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/affected_problem.hpp>
+#include <sivid/model/named_effects.hpp>
+#include <sivid/number/interval.hpp>
 #include <sivid/number/text/joined.hpp>
+#include <sivid/paving/inflation.hpp>
+#include <sivid/paving/inflation/observer_refutation.hpp>
 #include <sivid/paving/relation/detail/broken_relation.hpp>
 #include <sivid/paving/relation/detail/untouched_relation.hpp>
-#include <sivid/verifier/claim/detail/data_parts_check.hpp>
-#include <sivid/verifier/claim/detail/effect_hulls_check.hpp>
-#include <sivid/verifier/claim/detail/finding_of_all.hpp>
-#include <sivid/verifier/claim/detail/inflation_proof.hpp>
-#include <sivid/verifier/claim/detail/shrink_check.hpp>
+#include <sivid/verifier/claim/detail/stated_range.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace sivid {
 
 namespace io_detail {
+
+/// Shares of the gap follow from the inflations.
+/// @param c  the answer; null: the closest cause is meant
+[[nodiscard]] inline check_finding check_shrinks(diagnosis const& d, cause const* c) {
+    using outcome = check_finding::outcome;
+    finding_of_all all;
+    // What reading rounded outward is the larger the smaller the gap.
+    auto const follows = [&](std::optional<interval> const& stated,
+                             std::optional<interval> const& again, interval const& before,
+                             char const* which) {
+        if (!stated) return;
+        double const gap = before.lower() > 1 ? before.lower() - 1 : before.upper() - 1;
+        double const slack = 1e-12 * (1 + 1 / std::max(1e-12, gap));
+        auto const outside = [slack](double a, double b) { // a must not be below b
+            return std::isfinite(a) && std::isfinite(b) ? a < b - slack * std::max(1.0, std::abs(b))
+                                                        : a < b;
+        };
+        bool const holds = again && !is_empty(*stated) &&
+                           !outside(again->lower(), stated->lower()) &&
+                           !outside(stated->upper(), again->upper());
+        all.note(holds ? outcome::verified : outcome::refuted,
+                 std::string{"the share of "} + which + " does not follow from the inflations");
+    };
+    if (c == nullptr && !d.causes.empty()) c = &d.causes.front();
+    std::optional<interval> fit, held, over;
+    if (c != nullptr) fit = shrink(d.inflation, c->inflation);
+    if (c != nullptr && c->holdout) {
+        auto const& h = *c->holdout;
+        held = shrink(h.inflation_before, h.inflation_after);
+        if (h.over_fits_after) over = shrink(h.inflation_before, *h.over_fits_after);
+    }
+    auto const held_gap = c != nullptr && c->holdout ? c->holdout->inflation_before : d.inflation;
+    follows(d.shrink_fit, fit, d.inflation, "the fit");
+    follows(d.shrink_holdout, held, held_gap, "the held-out data");
+    follows(d.shrink_over_fits, over, held_gap, "all fits");
+    return all.finding("shrink", "follows from the inflations");
+}
+
+} // namespace io_detail
+
+/// The point that a witness names, if it is one of the problem: parameters of the prior, allowed
+/// starts. States that effects added start where the parameters say.
+[[nodiscard]] inline std::optional<approximate_fit> point_of(identification_problem const& p,
+                                                             named_witness const& w) {
+    approximate_fit result;
+    auto const value = [](std::vector<named_estimate> const& all,
+                          std::string const& name) -> std::optional<double> {
+        auto const at = std::ranges::find(all, name, &named_estimate::name);
+        return at == all.end() ? std::nullopt : std::optional{at->value};
+    };
+    if (w.parameters.size() != p.prior.size() || w.starts.size() != p.experiments.size())
+        return std::nullopt;
+    for (std::size_t j = 0; j < p.prior.size(); ++j) {
+        auto const x = value(w.parameters, p.choice.unknown[j]);
+        if (!x || !contains(p.prior[j], *x)) return std::nullopt;
+        result.parameters.push_back(*x);
+    }
+    auto const& states = p.model.about.states;
+    for (auto const& e : p.experiments) {
+        auto const at = std::ranges::find(w.starts, e.name, &named_witness::start::scenario);
+        if (at == w.starts.end()) return std::nullopt;
+        auto& start = result.starts.emplace_back();
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            auto const x = value(at->states, states[i].name);
+            bool const added = std::ranges::any_of(p.model.added_states,
+                                                   [i](auto const& a) { return a.state == i; });
+            if (!x || (!added && !contains(e.initial[i], *x))) return std::nullopt;
+            start.push_back(*x);
+        }
+    }
+    return result;
+}
+
+/// Proofs about the least factor by which bounds must grow until a parameter explains the data, by
+/// the provers of the diagnosis.
+class inflation_proof {
+    using outcome = check_finding::outcome;
+
+public:
+    /// @param limit  of all that it does; outlives it
+    inflation_proof(feasibility_test_options test, work_limit const& limit)
+        : test_(limited(std::move(test), limit)), limit_(&limit) {}
+
+    /// Whether a validated run of the witness proves that the factor is `most` at most.
+    /// @param assumptions  receives what the run rests on; may be null
+    [[nodiscard]] outcome at_most(identification_problem const& p, named_witness const& w,
+                                  double most,
+                                  std::vector<std::string>* assumptions = nullptr) const {
+        auto const point = point_of(p, w);
+        if (!point) return outcome::refuted;
+        auto const proved = verify_at(p, *point, test_);
+        if (assumptions != nullptr) *assumptions = proved.assumptions;
+        return proved.range.upper() <= most  ? outcome::verified
+               : proved.range.lower() > most ? outcome::refuted
+                                             : outcome::undecided;
+    }
+
+    /// Whether a search finds parameters for which the factor is `most` at most, where nobody says
+    /// which they are.
+    [[nodiscard]] outcome found_at_most(identification_problem const& p, double most,
+                                        double share) const {
+        if (p.model.has_memory()) return outcome::undecided;
+        auto const found = bounds(p, share * limit_->seconds());
+        return !io_detail::below(most, found.upper()) ? outcome::verified
+               : found.lower() > most                 ? outcome::refuted
+                                                      : outcome::undecided;
+    }
+
+    /// Whether no parameter explains the data while all bounds are `least` times as wide, or less.
+    /// @param share  of the time that is left
+    [[nodiscard]] outcome at_least(identification_problem const& p, double least,
+                                   double share) const {
+        if (!(least > 0)) return outcome::verified;
+        if (!p.model.has_memory() && !has_wide_starts(p)) {
+            auto const found = bounds(p, 0.5 * share * limit_->seconds());
+            if (!io_detail::below(found.lower(), least)) return outcome::verified;
+            if (found.upper() <= clearly * least) return outcome::refuted;
+        }
+        return none_explains(bound_growth::of(p, {})(p, least - 1), share);
+    }
+
+    /// What a search proves of the factor.
+    [[nodiscard]] inflation_bound search(identification_problem const& p,
+                                         approximate_fit const* guess, double seconds) const {
+        inflation_options how;
+        how.relative_width = 0.01;
+        how.seconds = seconds;
+        how.keep_going = *limit_;
+        how.test = test_;
+        return bound_inflation(p, guess, how);
+    }
+    [[nodiscard]] interval bounds(identification_problem const& p, double seconds) const {
+        return search(p, nullptr, seconds).value;
+    }
+
+    /// Whether no parameter of the prior explains the data; refuted where one does with room to
+    /// spare: what was rounded away is no contradiction.
+    /// @cost  a fit, then a search until it is decided, or the time is up
+    [[nodiscard]] outcome none_explains(identification_problem const& p, double share) const {
+        double const seconds = share * limit_->seconds();
+        bool const memory = p.model.has_memory();
+        counterexample_options fits;
+        fits.seconds = 0.2 * seconds;
+        fits.keep_going = *limit_;
+        fits.confirms = [&](approximate_fit const& f) {
+            return verify_at(p, f, test_).range.upper() <= clearly;
+        };
+        if (find_explaining_point(p, {p.prior}, fits)) return outcome::refuted;
+        if (memory || !(*limit_)()) return outcome::undecided; // no search over delays
+        bool const wide = has_wide_starts(p);
+        if (wide && by_observers(p, 0.4 * seconds)) return outcome::verified;
+        inflation_options how;
+        how.only_verdict = true;
+        how.relative_width = 0;
+        how.seconds = 0.5 * seconds;
+        how.keep_going = *limit_;
+        how.test = test_;
+        auto const found = bound_inflation(p, nullptr, how).value;
+        if (found.lower() > 1) return outcome::verified;
+        if (found.upper() <= clearly) return outcome::refuted;
+        return !wide && by_observers(p, 0.3 * seconds) ? outcome::verified : outcome::undecided;
+    }
+
+    [[nodiscard]] feasibility_test_options const& test() const { return test_; }
+
+private:
+    /// An inflation that is below 1 by more than roundings of decimals.
+    static constexpr double clearly = 1 - 1e-6;
+
+    [[nodiscard]] bool by_observers(identification_problem const& p, double seconds) const {
+        observer_effort most;
+        most.boxes = static_cast<std::size_t>(-1);
+        most.seconds = seconds;
+        most.go_on = *limit_;
+        most.only_verdict = true;
+        return inflation_refuted_by_observers(p, detail::infinity, most).lower > 1;
+    }
+
+    feasibility_test_options test_;
+    work_limit const* limit_;
+};
+
+namespace io_detail {
+
+/// The inflation of each scenario and channel alone.
+/// @param most  what that of all data is proved to be at most: then that of a part is, too
+[[nodiscard]] inline check_finding check_parts(identification_problem const& base,
+                                               diagnosis const& d, double most,
+                                               inflation_proof const& proof,
+                                               work_limit const& limit) {
+    using outcome = check_finding::outcome;
+    finding_of_all all;
+    auto const& s = d.scenario_inflation;
+    auto const& c = d.channel_inflation;
+    std::size_t left = s.size() + c.size();
+    auto const part = [&](named_estimate const& stated, auto const& names, auto const& belongs) {
+        auto const k = static_cast<std::size_t>(
+            std::ranges::find_if(names, [&](auto const& n) { return n.name == stated.name; }) -
+            names.begin());
+        double const share = 0.5 / static_cast<double>(left--);
+        auto const words = "the inflation of " + stated.name + " alone is not proved again";
+        bool const nothing =
+            !stated.hull || (stated.hull->lower() <= 0 && std::isinf(stated.hull->upper()));
+        auto const own = restricted_to(
+            base, [&](std::size_t e, measurement const& m) { return belongs(k, e, m); });
+        if (k >= names.size() || own.experiments.empty()) {
+            all.note(outcome::refuted, "no such part of the data: " + stated.name);
+            return;
+        }
+        if (nothing) return;
+        auto const alone = proof.bounds(own, share * limit.seconds());
+        auto const found = alone.lower() <= most && most < alone.upper()
+                               ? interval_traits<interval>::bounds(alone.lower(), most)
+                               : alone;
+        auto says = compared(found, *stated.hull);
+        if (says == outcome::undecided && found.upper() <= stated.hull->upper())
+            says = proof.at_least(own, stated.hull->lower(), share);
+        all.note(says, words);
+    };
+    for (auto const& e : s)
+        part(e, base.experiments,
+             [](std::size_t k, std::size_t at, measurement const&) { return at == k; });
+    for (auto const& e : c)
+        part(e, base.model.about.channels,
+             [](std::size_t k, std::size_t, measurement const& m) { return m.channel == k; });
+    return all.finding("parts of the data", "scenarios and channels alone");
+}
+
+/// A part of the data that alone stands against the model.
+/// @param whole  a factor for all bounds that is proved not to be enough: then it is not for some
+[[nodiscard]] inline check_finding check_confined(identification_problem const& base,
+                                                  confined_gap const& c, double whole,
+                                                  inflation_proof const& proof) {
+    using outcome = check_finding::outcome;
+    auto const what = "confined " + (c.channel.empty() ? joined(c.scenarios, ", ") : c.channel);
+    data_part part;
+    auto const& channels = base.model.about.channels;
+    for (std::size_t y = 0; y < channels.size(); ++y)
+        if (channels[y].name == c.channel) part.channel = y;
+    for (auto const& name : c.scenarios) {
+        auto const& list = base.experiments;
+        auto const e = std::ranges::find(list, name, &experiment::name);
+        if (e == list.end()) return {what, outcome::refuted, "no scenario " + name};
+        part.experiments.push_back(static_cast<std::size_t>(e - list.begin()));
+    }
+    if (!c.channel.empty() && !part.channel)
+        return {what, outcome::refuted, "no channel " + c.channel};
+    finding_of_all all;
+    auto const times = bound_growth::of(base, part);
+    auto const grown = times(base, c.factor.upper() - 1);
+    std::vector<std::string> needed;
+    all.note(proof.at_most(grown, c.witness, 1, &needed),
+             "the witness does not explain the data with bounds so wide");
+    for (auto const& a : needed)
+        if (std::ranges::find(c.assumptions, a) == c.assumptions.end())
+            all.note(outcome::refuted, "'" + a + "' is not assumed");
+    if (c.factor.lower() > 0 && below(whole, c.factor.lower()))
+        all.note(proof.none_explains(times(base, c.factor.lower() - 1), 0.2),
+                 "the lower end of the factor is not proved again");
+    if (c.steps) {
+        auto const again = part.channel ? coarse_steps(base, part, grown) : std::nullopt;
+        bool const same = again && again->size == c.steps->size && again->unit == c.steps->unit &&
+                          again->cut_off == c.steps->cut_off;
+        all.note(same ? outcome::verified : outcome::undecided,
+                 "the steps of its readings are others");
+    }
+    if (c.grows) all.note(outcome::undecided, "bounds that grow with the output: not proved again");
+    return all.finding(what, "its factor, from both sides");
+}
+
+/// The problem with these effects; `why` says what is unknown about them otherwise.
+[[nodiscard]] inline std::optional<identification_problem>
+with_effects(identification_problem const& base, std::vector<effect> const& catalogue,
+             std::vector<std::string> const& effects, std::vector<effect>& named,
+             std::string& why) {
+    try {
+        named = effects_named(catalogue, effects, &base.model.about);
+        return affected(base, named);
+    } catch (std::invalid_argument const& e) {
+        why = e.what();
+        return std::nullopt;
+    }
+}
+
+/// What a diagnosis says of the parameters of its answer: hulls, combinations, times.
+class effect_hulls_check {
+    using outcome = check_finding::outcome;
+
+public:
+    effect_hulls_check(identification_problem const& base, std::vector<effect> const& catalogue,
+                       diagnosis const& d, inflation_proof const& proof, work_limit const& limit)
+        : base_(&base), catalogue_(&catalogue), d_(&d), proof_(&proof), limit_(&limit) {}
+
+    /// As found anew; no sides where none was.
+    [[nodiscard]] explained_hull const& found() const { return hull_; }
+
+    /// Hulls of the answer: what lies outside of them is excluded anew.
+    [[nodiscard]] check_finding operator()(cause const* c) {
+        finding_of_all all;
+        auto const stated = [](std::vector<named_estimate> const& list) {
+            return std::ranges::any_of(list, [](auto const& e) { return e.hull.has_value(); });
+        };
+        for (auto const& other : d_->causes) {
+            if (&other == c) continue;
+            if (stated(other.parameters) || !other.onsets.empty() || !other.ends.empty())
+                all.note(outcome::undecided, "hulls of a cause that is not the answer");
+        }
+        bool const some =
+            (c != nullptr && (stated(c->parameters) || !c->onsets.empty() || !c->ends.empty())) ||
+            stated(d_->constants) || !d_->combinations.empty();
+        std::string why;
+        std::vector<effect> named;
+        auto const p = some && c != nullptr
+                           ? with_effects(*base_, *catalogue_, c->effects, named, why)
+                           : std::nullopt;
+        if (some && !p) all.note(outcome::undecided, "hulls of no answer, or of another one");
+        if (!p) return all.finding("hulls", "");
+        effect_hull_options how;
+        how.seconds = 0.4 * limit_->seconds();
+        how.boxes = 40000;
+        how.keep_going = *limit_;
+        how.test = proof_->test();
+        bool const later =
+            named.size() == 1 && (named.front().begins_later() || named.front().ends());
+        if (later) {
+            auto const found = hulls_of_episodes(*base_, named.front(), how);
+            hull_ = explained_hull{found.parameters};
+            times(c->onsets, found, true, all);
+            times(c->ends, found, false, all);
+        } else {
+            hull_ = effect_hulls(*base_, named, how);
+            if (!c->onsets.empty() || !c->ends.empty())
+                all.note(outcome::refuted, "times of effects that act all the time");
+        }
+        sides(*p, *c, all);
+        return all.finding("hulls", "all that lies outside is excluded anew");
+    }
+
+private:
+    /// The ranges of parameters and of combinations that are stated against those found.
+    void sides(identification_problem const& p, cause const& c, finding_of_all& all) const {
+        auto const range = [&](named_estimate const& e) {
+            if (!e.hull) return;
+            auto const j = std::ranges::find(p.choice.unknown, e.name) - p.choice.unknown.begin();
+            auto const at = static_cast<std::size_t>(j);
+            if (at >= hull_.parameters.size()) {
+                all.note(outcome::refuted, "a hull of no parameter: " + e.name);
+                return;
+            }
+            auto says = compared(hull_.parameters[at], *e.hull);
+            // A hull is no more than an enclosure: only a proof that some lie outside refutes it.
+            if (says != outcome::verified) says = outside(p, at, *e.hull);
+            all.note(says, "values of " + e.name + " beyond its hull are not excluded");
+        };
+        for (auto const& e : c.parameters) range(e);
+        for (auto const& e : d_->constants) range(e);
+        if (d_->combinations.empty()) return;
+        auto const again = told_combinations(p, d_->constants, hull_);
+        for (auto const& k : d_->combinations) {
+            auto const at =
+                std::ranges::find(again, k.about.name, [](auto const& t) { return t.about.name; });
+            bool const found = at != again.end() && k.about.hull && at->about.hull &&
+                               at->about.unit == k.about.unit &&
+                               within_stated(*at->about.hull, *k.about.hull);
+            all.note(found ? outcome::verified : outcome::undecided,
+                     "the range of " + k.about.name + " is not proved again");
+        }
+    }
+    /// Whether nothing beyond a range of parameter j explains the data.
+    [[nodiscard]] outcome outside(identification_problem const& p, std::size_t j,
+                                  interval const& range) const {
+        using traits = interval_traits<interval>;
+        auto result = outcome::verified;
+        for (bool const above : {false, true}) {
+            auto slab = p;
+            auto const& whole = p.prior[j];
+            bool const none =
+                above ? range.upper() >= whole.upper() : range.lower() <= whole.lower();
+            if (none) continue;
+            slab.prior[j] =
+                above ? traits::bounds(std::max(range.upper(), whole.lower()), whole.upper())
+                      : traits::bounds(whole.lower(), std::min(range.lower(), whole.upper()));
+            auto const says = proof_->none_explains(slab, 0.1);
+            if (says == outcome::refuted) return says;
+            if (says == outcome::undecided) result = says;
+        }
+        return result;
+    }
+    void times(std::vector<named_estimate> const& stated, episode_hulls const& found, bool onset,
+               finding_of_all& all) const {
+        for (auto const& t : stated) {
+            auto const& list = base_->experiments;
+            auto const e = static_cast<std::size_t>(
+                std::ranges::find(list, t.name, &experiment::name) - list.begin());
+            bool const there =
+                e < list.size() && e < found.times.size() && t.hull &&
+                within_stated(onset ? found.times[e].on : found.times[e].off, *t.hull);
+            all.note(there ? outcome::verified : outcome::undecided,
+                     "when it acts in " + t.name + " is not proved again");
+        }
+    }
+
+    identification_problem const* base_;
+    std::vector<effect> const* catalogue_;
+    diagnosis const* d_;
+    inflation_proof const* proof_;
+    work_limit const* limit_;
+    explained_hull hull_;
+};
 
 /// One check of a stored diagnosis.
 class diagnosis_check_work {

@@ -5,9 +5,6 @@
 #include <sivid/verifier/claim/detail/identification_check_work.hpp>
 #include <sivid/verifier/identification_check.hpp>
 
-#include <functional>
-#include <vector>
-
 namespace sivid {
 
 template <class Exact, class Fast>

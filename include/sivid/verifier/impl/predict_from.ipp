@@ -4,23 +4,20 @@
 
 #include <sivid/verifier/predict_from.hpp>
 
-#include <sivid/compiled.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
-#include <sivid/verifier/claim/detail/stored_consistency.hpp>
-#include <sivid/verifier/proof/detail/certificate.hpp>
+#include <sivid/verifier/claim/detail/stored_claims.hpp>
+#include <sivid/verifier/proof/detail/plain_proof.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace sivid {
 
@@ -37,23 +34,13 @@ public:
     feasible_search(identification_problem const& data, stored_identification const& stored,
                     double seconds)
         : data_(data), seconds_(seconds) {
-        auto const& names = data.choice.unknown;
+        std::string fault;
         if (!stored.witness) return;
-        for (auto const& name : names) {
-            auto const found = stored.witness->parameters.find(name);
-            if (found == stored.witness->parameters.end()) return;
-            witness_.push_back(found->second);
-        }
-        for (auto const& e : data.experiments) {
-            auto const own = stored.witness->initial.find(e.name);
-            auto start = mid(e.initial);
-            for (std::size_t i = 0; i < start.size(); ++i) {
-                if (own == stored.witness->initial.end()) break;
-                auto const at = own->second.find(data.model.about.states[i].name);
-                if (at != own->second.end()) start[i] = at->second;
-            }
-            starts_.push_back(point_within(e.initial, start));
-        }
+        auto const point = witness_point(data, stored, fault);
+        if (!point) return;
+        witness_ = point->parameters;
+        for (std::size_t e = 0; e < data.experiments.size(); ++e)
+            starts_.push_back(point_within(data.experiments[e].initial, point->starts[e]));
     }
 
     void use(std::vector<product_formula> sides, std::vector<std::size_t> pivots) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
 
-#include <sivid/report/draw/detail/paving_raster.hpp>
+#include <sivid/report/draw/paving_plot.hpp>
 
 #include <cstdint>
 #include <vector>

@@ -4,8 +4,7 @@
 #include "support/catch.hpp"
 
 #include <sivid/approximate/fit/fit.hpp>
-#include <sivid/report/diagnosis_report.hpp>
-#include <sivid/report/fill/detail/diagnosis_plot_data.hpp>
+#include <sivid/report/diagnosis_page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,11 +51,30 @@ TEST_CASE("plot data: fits to a campaign become measured intervals and outputs")
 }
 
 TEST_CASE("plot data: at most the budget is suspected, and only beyond its bounds") {
-    std::vector<double> const r{0.5, -3, 2, 1.5, NAN};
-    CHECK(detail::suspects(r, 5, 2) == std::vector<bool>{false, true, true, false, false});
-    CHECK(detail::suspects(r, 5, 9) == std::vector<bool>{false, true, true, true, false});
-    CHECK(detail::suspects(r, 5, 0) == std::vector<bool>(5, false));
-    CHECK(detail::suspects({}, 3, 2) == std::vector<bool>(3, false));
+    auto problem = small_campaign::problem();
+    problem.experiments.resize(1);
+    auto& experiment = problem.experiments[0];
+    sivid::approximate_fit fit;
+    fit.residuals = {std::vector<double>(experiment.measurements.size(), 0.5)};
+    fit.residuals[0][1] = -3;
+    fit.residuals[0][2] = 2;
+    fit.residuals[0][3] = 1.5;
+    fit.residuals[0][4] = NAN;
+    auto const samples = sorted(experiment.measurements);
+    for (std::size_t const budget : {std::size_t{0}, std::size_t{2}, std::size_t{9}}) {
+        experiment.outliers = budget;
+        std::size_t suspected = 0;
+        auto const all = compared_scenarios(problem, fit);
+        for (auto const& c : all.at(0).channels) {
+            for (auto const& m : c.measured) {
+                if (m.state != sample_state::suspect) continue;
+                ++suspected;
+                bool const largest = m.time <= samples[budget == 2 ? 2 : 3].time;
+                CHECK(largest);
+            }
+        }
+        CHECK(suspected == std::min<std::size_t>(budget, 3));
+    }
 }
 
 TEST_CASE("plot data: without a fit the measurements remain") {

@@ -2,7 +2,8 @@
 #include "report/diagnosis_example.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/page/detail/advice.hpp>
+#include <sivid/report/detail/diagnosis_tables.hpp>
+#include <sivid/report/diagnosis_page.hpp>
 
 #include <algorithm>
 #include <string>
@@ -49,7 +50,7 @@ TEST_CASE("advice: a simulator is told the change, its numbers and what it costs
 
 TEST_CASE("advice: the largest misfit is told in the unit of its channel") {
     diagnosis_view v;
-    comparison_series a{.name = "u", .unit = "m/s"}, b{.name = "psi", .unit = "rad"};
+    channel_series a{.name = "u", .unit = "m/s"}, b{.name = "psi", .unit = "rad"};
     a.measured = {{.time = 1, .value = {0.9, 1.1}}, {.time = 2, .value = {1.9, 2.1}}};
     a.misfit_before = {{1, 0.5}, {2, 3}};
     a.misfit_after = {{1, 0.5}, {2, 0.25}};

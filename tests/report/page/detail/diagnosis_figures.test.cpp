@@ -3,7 +3,8 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/page/detail/diagnosis_figures.hpp>
+#include <sivid/report/detail/diagnosis_tables.hpp>
+#include <sivid/report/diagnosis_page.hpp>
 
 using namespace sivid::report;
 using namespace sivid_tests;

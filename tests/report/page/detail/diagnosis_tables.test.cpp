@@ -2,8 +2,9 @@
 #include "report/diagnosis_example.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/report/detail/diagnosis_tables.hpp>
+#include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_words.hpp>
-#include <sivid/report/page/detail/diagnosis_tables.hpp>
 
 #include <limits>
 #include <string>

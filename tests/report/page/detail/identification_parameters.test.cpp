@@ -3,17 +3,13 @@
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/page/detail/identification_parameters.hpp>
+#include <sivid/report/identification_page.hpp>
 
 using namespace sivid::report;
 using namespace sivid_tests;
 
 TEST_CASE("identification parameters: table, chart, combinations and pavings with zooms") {
-    page p{{.kind = "k", .title = "t"}};
-    identification_view const v = hovercraft_view(2'000, false);
-    detail::add_parameters(p, v);
-    detail::add_pavings(p, v);
-    std::string const text = p.str();
+    std::string const text = identification_page(hovercraft_view(2'000, false)).str();
     CHECK(markup_error(body_of(text)) == "");
     CHECK_THAT(text,
                ContainsSubstring("<td class=\"number\" data-head=\"prior\">[0.2, 0.25]</td>"));
@@ -23,12 +19,12 @@ TEST_CASE("identification parameters: table, chart, combinations and pavings wit
 }
 
 TEST_CASE("identification parameters: a set proved empty is said to be, not drawn") {
-    page p{{.kind = "k", .title = "t"}};
     identification_view v = hovercraft_view(100, false);
     for (paving_projection& one : v.pavings) {
         one.boxes = {{{0, 1}, {0, 1}, region::outside}};
     }
-    detail::add_pavings(p, v);
-    CHECK_THAT(p.str(), ContainsSubstring("It is empty"));
-    CHECK(p.str().find("<figure") == std::string::npos);
+    v.product_pavings.clear();
+    auto const text = identification_page(v).str();
+    CHECK_THAT(text, ContainsSubstring("It is empty"));
+    CHECK(text.find("whole prior") == std::string::npos);
 }

@@ -2,7 +2,7 @@
 // What the script may not do; what it does is looked at in a browser (tests/browser).
 #include "support/catch.hpp"
 
-#include <sivid/report/page/detail/page_script.hpp>
+#include <sivid/report/detail/page_assets.hpp>
 
 #include <algorithm>
 

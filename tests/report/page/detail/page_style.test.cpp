@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
 
-#include <sivid/report/page/detail/page_style.hpp>
+#include <sivid/report/detail/page_assets.hpp>
 
 #include <algorithm>
 

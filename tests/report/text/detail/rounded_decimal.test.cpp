@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
 
-#include <sivid/report/text/detail/rounded_decimal.hpp>
+#include <sivid/report/number_text.hpp>
 
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "report/facts.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/words/detail/place_words.hpp>
+#include <sivid/report/diagnosis_words.hpp>
 
 #include <string>
 #include <utility>

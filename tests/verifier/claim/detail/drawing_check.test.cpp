@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/claim/detail/drawing_check.hpp>
+#include <sivid/verifier/claim/detail/paving_check.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/claim/detail/forced_outlier_check.hpp>
+#include <sivid/verifier/claim/detail/witness_checks.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/claim/detail/identifiability_check.hpp>
+#include <sivid/verifier/claim/detail/identification_check_work.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"

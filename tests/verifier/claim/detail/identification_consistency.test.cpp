@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/claim/detail/identification_consistency.hpp>
+#include <sivid/verifier/claim/detail/stored_claims.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"

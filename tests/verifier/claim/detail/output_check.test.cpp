@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/claim/detail/output_check.hpp>
+#include <sivid/verifier/claim/detail/witness_checks.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"

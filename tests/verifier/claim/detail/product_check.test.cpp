@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/claim/detail/product_check.hpp>
+#include <sivid/verifier/claim/detail/stored_claims.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
@@ -21,7 +21,7 @@ TEST_CASE("hull, combinations and volumes follow from the products, and each alt
         return check_hull_of_products<interval>(problem, s, rebuilt).found;
     };
     auto const volumes = [&](stored_identification const& s) {
-        return check_volumes_of_products<interval>(problem, s, rebuilt).found;
+        return check_volumes_of_products(problem, s).found;
     };
     CHECK(products(good) == outcome::verified);
     CHECK(hulls(good) == outcome::verified);
@@ -96,10 +96,7 @@ TEST_CASE(
     "a volume decides nothing where no product is inside, nor where none is known to be met") {
     auto const problem = io_support::two_rates_problem();
     auto stored = io_support::stored_result(problem).read();
-    auto const rebuilt = rebuild_products<interval>(problem, stored.products->sides);
-    auto const verdicts = [&] {
-        return check_verdict_of_products<interval>(stored, rebuilt, problem.prior).found;
-    };
+    auto const verdicts = [&] { return check_verdict_of_products(problem, stored).found; };
     CHECK(verdicts() == outcome::verified);
     stored.witness.reset();
     stored.grounds = to_string(verdict_grounds::inside_boxes);
@@ -115,7 +112,6 @@ TEST_CASE(
         stored.inner = interval(1e-301);
         CHECK(verdicts() == outcome::refuted);
         CHECK(check_verdict(stored).found == outcome::refuted);
-        CHECK(check_volumes_of_products<interval>(problem, stored, rebuilt).found ==
-              outcome::refuted);
+        CHECK(check_volumes_of_products(problem, stored).found == outcome::refuted);
     }
 }

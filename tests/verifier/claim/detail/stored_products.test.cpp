@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/claim/detail/stored_products.hpp>
+#include <sivid/verifier/claim/detail/stored_claims.hpp>
 
 #include "io/small_identification.hpp"
 #include "support/catch.hpp"

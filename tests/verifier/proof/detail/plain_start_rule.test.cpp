@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/proof/detail/plain_start_rule.hpp>
+#include <sivid/verifier/proof/detail/plain_proof.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"

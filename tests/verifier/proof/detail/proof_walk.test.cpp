@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/proof/detail/proof_walk.hpp>
+#include <sivid/verifier/proof/detail/exclusion_check.hpp>
 
 #include "support/catch.hpp"
 

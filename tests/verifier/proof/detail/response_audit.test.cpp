@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/paving/run/experiment_run.hpp>
-#include <sivid/verifier/proof/detail/response_audit.hpp>
+#include <sivid/verifier/proof/detail/exclusion_check.hpp>
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"

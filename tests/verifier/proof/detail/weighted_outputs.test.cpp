@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/verifier/proof/detail/weighted_outputs.hpp>
+#include <sivid/verifier/proof/detail/exclusion_check.hpp>
 
 #include <sivid/paving/contract/detail/weighted_certificate.hpp>
 

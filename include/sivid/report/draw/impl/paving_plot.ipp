@@ -4,7 +4,128 @@
 
 #include <sivid/report/draw/paving_plot.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
 namespace sivid::report {
+
+namespace detail {
+
+/// True when r has points inside the window, or is a single value on it.
+inline bool shows(range const& window, range const& r) {
+    return (r.lo < window.hi && r.hi > window.lo) ||
+           (r.lo == r.hi && r.lo >= window.lo && r.hi <= window.hi);
+}
+
+/// Break points of one axis: the ends of the boxes when at most `most` cells result, else evenly
+/// spaced (also when a box has no width there, so that it cannot take a wide cell).
+/// @returns whether they are the ends
+inline bool axis_breaks(std::vector<projected_box> const& boxes, range projected_box::*side,
+                        range const& window, std::size_t most, std::vector<double>& out) {
+    out = {window.lo, window.hi};
+    bool thin = false;
+    for (projected_box const& b : boxes) {
+        range const& r = b.*side;
+        if (b.verdict != region::outside && shows(window, r)) {
+            thin = thin || r.lo == r.hi;
+            for (double const end : {r.lo, r.hi}) {
+                if (end > window.lo && end < window.hi) out.push_back(end);
+            }
+        }
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    if (out.size() <= most + 1 && !thin) return true;
+    out.resize(most + 1);
+    for (std::size_t i = 0; i <= most; ++i) {
+        double const share = static_cast<double>(i) / static_cast<double>(most);
+        out[i] = i == most ? window.hi : window.lo + share * (window.hi - window.lo);
+    }
+    return false;
+}
+
+/// The cells that [r] touches, [first, last); at least one, so that thin pieces stay visible.
+inline std::array<std::size_t, 2> touched(std::vector<double> const& breaks, range const& r) {
+    std::size_t const cells = breaks.size() - 1;
+    auto const after = std::upper_bound(breaks.begin(), breaks.end(), r.lo) - breaks.begin();
+    auto const first =
+        std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0)), cells - 1);
+    auto const until = static_cast<std::size_t>(
+        std::lower_bound(breaks.begin(), breaks.end(), r.hi) - breaks.begin());
+    return {first, std::clamp(until, first + 1, cells)};
+}
+
+} // namespace detail
+
+SIVID_DECL region_raster project_paving(std::vector<projected_box> const& boxes, range const& x,
+                                        range const& y, std::size_t most) {
+    region_raster out;
+    auto const seen = [&](projected_box const& b) {
+        return b.verdict != region::outside && detail::shows(x, b.x) && detail::shows(y, b.y);
+    };
+    bool const exact_x =
+        detail::axis_breaks(boxes, &projected_box::x, x, std::max<std::size_t>(most, 1), out.xs);
+    bool const exact_y =
+        detail::axis_breaks(boxes, &projected_box::y, y, std::max<std::size_t>(most, 1), out.ys);
+    out.exact = exact_x && exact_y;
+
+    // Count the boxes of each region above each cell by two-dimensional running sums.
+    std::size_t const columns = out.columns(), rows = out.rows(), stride = columns + 1;
+    out.cells.assign(columns * rows, region::outside);
+    for (region const what : {region::pending, region::undecided, region::inside}) {
+        std::vector<std::int32_t> change(stride * (rows + 1), 0);
+        for (projected_box const& b : boxes) {
+            if (b.verdict == what && seen(b)) {
+                auto const [left, right] = detail::touched(out.xs, b.x);
+                auto const [low, high] = detail::touched(out.ys, b.y);
+                ++change[low * stride + left];
+                --change[low * stride + right];
+                --change[high * stride + left];
+                ++change[high * stride + right];
+            }
+        }
+        for (std::size_t r = 0; r < rows; ++r) {
+            std::int32_t along = 0;
+            for (std::size_t c = 0; c < columns; ++c) {
+                along += change[r * stride + c];
+                std::int32_t const above = along + (r > 0 ? change[(r - 1) * stride + c] : 0);
+                change[r * stride + c] = above;
+                if (above > 0) out.cells[r * columns + c] = what;
+            }
+        }
+    }
+    return out;
+}
+
+SIVID_DECL std::vector<region_rect> merge_cells(region_raster const& raster) {
+    std::vector<region_rect> done;
+    std::vector<region_rect> open;
+    std::vector<region_rect> row_runs;
+    for (std::size_t r = 0; r <= raster.rows(); ++r) {
+        row_runs.clear();
+        for (std::size_t c = 0; r < raster.rows() && c < raster.columns();) {
+            region const what = raster.at(c, r);
+            std::size_t end = c + 1;
+            while (end < raster.columns() && raster.at(end, r) == what) ++end;
+            if (what != region::outside) row_runs.push_back({c, end, r, r + 1, what});
+            c = end;
+        }
+        // Both lists are ordered by their left end: one pass finds the runs that go on.
+        std::size_t k = 0;
+        for (region_rect& run : row_runs) {
+            while (k < open.size() && open[k].left < run.left) done.push_back(open[k++]);
+            if (k < open.size() && open[k].left == run.left && open[k].right == run.right &&
+                open[k].what == run.what) {
+                run.low = open[k++].low;
+            }
+        }
+        done.insert(done.end(), open.begin() + static_cast<std::ptrdiff_t>(k), open.end());
+        open = row_runs;
+    }
+    return done;
+}
 
 SIVID_DECL std::optional<plane_window> zoom_window(paving_projection const& p, double most_share) {
     range const whole_x = axis_range(p.x.bounds), whole_y = axis_range(p.y.bounds);
@@ -147,6 +268,147 @@ SIVID_DECL svg draw_paving_plot(paving_projection const& p, paving_plot_options 
         draw_witness(out, a.px(p.witness->x), a.py(p.witness->y), "witness: a verified point");
     }
     a.close(out);
+    return out;
+}
+
+/// The projection of a paving on its sides a and b.
+inline paving_projection projection(named_paving const& p, std::size_t a, std::size_t b) {
+    paving_projection out{.x = p.sides[a], .y = p.sides[b]};
+    auto const side = [](box const& set, std::size_t j) {
+        return range{lower(set[j]), upper(set[j])};
+    };
+    for (paved_box const& piece : p.paving->boxes()) {
+        if (piece.verdict == box_verdict::outside) continue;
+        out.boxes.push_back({side(piece.set, a), side(piece.set, b),
+                             piece.verdict == box_verdict::inside      ? region::inside
+                             : piece.verdict == box_verdict::undecided ? region::undecided
+                                                                       : region::pending});
+    }
+    if (!p.witness.empty()) out.witness = point{p.witness[a], p.witness[b]};
+    return out;
+}
+
+SIVID_DECL std::vector<paving_projection>
+projections(named_paving const& p, std::vector<std::size_t> const& first, std::size_t most) {
+    std::vector<std::size_t> order;
+    for (std::size_t j = 0; j < p.sides.size(); ++j) {
+        if (p.sides[j].bounds.lo < p.sides[j].bounds.hi) order.push_back(j);
+    }
+    auto const share = [&](std::size_t j) {
+        return approximate_width(p.hull[j]) / approximate_width(p.sides[j].bounds);
+    };
+    if (order.size() > 4) {
+        std::stable_sort(order.begin(), order.end(),
+                         [&](auto a, auto b) { return share(a) < share(b); });
+        order.resize(4);
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        for (std::size_t b = a + 1; b < order.size(); ++b) pairs.emplace_back(order[a], order[b]);
+    }
+    std::stable_partition(pairs.begin(), pairs.end(), [&](auto const& pair) {
+        return std::count(first.begin(), first.end(), pair.first) +
+                   std::count(first.begin(), first.end(), pair.second) ==
+               2;
+    });
+    pairs.resize(std::min(pairs.size(), most));
+    std::vector<paving_projection> out;
+    for (auto const& [a, b] : pairs) out.push_back(projection(p, a, b));
+    return out;
+}
+
+SIVID_DECL std::vector<legend_entry> plane_plot_legend(plane_series const& s) {
+    return legend_of({{!s.tube.empty(), {symbol::tube, "proven enclosure of the motion"}},
+                      {!s.measured.empty(), {symbol::measured_box, "measured position"}},
+                      {!s.reference.empty(), {symbol::reference, "reference, not validated"}},
+                      {!s.poses.empty(), {symbol::heading, "heading on the reference"}}});
+}
+
+SIVID_DECL std::vector<plane_box> merged(std::vector<plane_box> boxes, std::size_t most) {
+    while (boxes.size() > std::max<std::size_t>(most, 1)) {
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < boxes.size(); i += 2) {
+            plane_box const& next = boxes[std::min(i + 1, boxes.size() - 1)];
+            boxes[n++] = {hull(boxes[i].x, next.x), hull(boxes[i].y, next.y)};
+        }
+        boxes.resize(n);
+    }
+    return boxes;
+}
+
+namespace detail {
+
+inline void add_box(path_data& d, axes const& a, plane_box const& b, double least) {
+    double const x = a.px(b.x.lo), y = a.py(b.y.hi);
+    double const w = a.px(b.x.hi) - x, h = a.py(b.y.lo) - y;
+    double const more_w = std::max(0.0, least - w), more_h = std::max(0.0, least - h);
+    d.rect(x - more_w / 2, y - more_h / 2, w + more_w, h + more_h);
+}
+
+} // namespace detail
+
+SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& o) {
+    svg out{o.width, o.height, o.title.empty() ? s.y_name + " against " + s.x_name : o.title};
+    range xs;
+    range ys;
+    auto const include = [&](plane_box const& b) {
+        if (is_finite(b.x) && is_finite(b.y)) {
+            xs = hull(xs, b.x);
+            ys = hull(ys, b.y);
+        }
+    };
+    for (plane_box const& b : s.measured) include(b);
+    for (point const& p : s.reference) include({{p.x, p.x}, {p.y, p.y}});
+    // A tube that bursts must not hide the measurements.
+    range const x_core = xs, y_core = ys;
+    for (plane_box const& b : s.tube) include(b);
+    if (!is_empty(x_core)) {
+        double const room = std::max({approximate_width(x_core), approximate_width(y_core), 1e-9});
+        xs = intersect(xs, {x_core.lo - room, x_core.hi + room});
+        ys = intersect(ys, {y_core.lo - room, y_core.hi + room});
+    }
+    axes const a{{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
+                 {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
+                 {.width = o.width, .height = o.height, .title = o.title, .equal_aspect = true}};
+    a.open(out);
+    constexpr std::size_t most_boxes = 4000;
+    path_data boxes;
+    for (plane_box const& b : merged(s.tube, most_boxes)) {
+        if (!is_empty(b.x) && !is_empty(b.y)) detail::add_box(boxes, a, b, 1.2);
+    }
+    // One path: where boxes overlap, the colour does not add up.
+    out.path(boxes,
+             {.fill = palette::tube, .stroke = palette::tube_edge, .width = 0.5, .opacity = 0.6});
+    path_data line;
+    bool down = false;
+    for (point const& p : s.reference) {
+        if (is_finite(p)) down ? line.line(a.px(p.x), a.py(p.y)) : line.move(a.px(p.x), a.py(p.y));
+        down = is_finite(p);
+    }
+    out.path(line, {.stroke = palette::truth, .width = 1.5, .dash = "5 3"});
+    path_data measured;
+    for (plane_box const& b : merged(s.measured, most_boxes)) {
+        if (is_finite(b.x) && is_finite(b.y)) detail::add_box(measured, a, b, 3);
+    }
+    out.path(measured, {.stroke = palette::measurement, .width = 1});
+    path_data arrows;
+    for (pose const& p : s.poses) {
+        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.heading)) {
+            add_arrowhead(arrows, a.px(p.x), a.py(p.y), p.heading);
+        }
+    }
+    out.path(arrows, {.fill = palette::paper, .stroke = palette::truth, .width = 1.2},
+             "heading, not validated");
+    if (!s.reference.empty() && is_finite(s.reference.front())) {
+        point const& start = s.reference.front();
+        out.circle(a.px(start.x), a.py(start.y), 4, {.fill = palette::ink}, "start");
+        double const wide = approximate_text_width("start", 11) + 6;
+        out.rect(a.px(start.x) - wide / 2, a.py(start.y) - 20, wide, 14,
+                 {.fill = palette::paper, .opacity = 0.8}, 3);
+        out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
+    }
+    a.close(out);
+    if (boxes.empty() && measured.empty() && line.empty()) a.say(out, "no data");
     return out;
 }
 

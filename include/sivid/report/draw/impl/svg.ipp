@@ -4,6 +4,8 @@
 
 #include <sivid/report/draw/svg.hpp>
 
+#include <charconv>
+
 namespace sivid::report {
 
 SIVID_DECL std::string coordinate(double value) {
@@ -53,29 +55,29 @@ SIVID_DECL svg& svg::path(path_data const& d, paint const& p, std::string_view t
 }
 
 SIVID_DECL svg& svg::text(double x, double y, std::string_view what, text_style const& s) {
-    body_ += std::string{"<text"} + attribute("x", x) + attribute("y", y) +
-             attribute("font-size", s.size) + " fill=\"" + escape(s.fill) + '"';
+    body_ += "<text" + attribute("x", x) + attribute("y", y) + attribute("font-size", s.size) +
+             " fill=\"" + escape(s.fill) + '"';
     body_ += s.align == anchor::middle ? " text-anchor=\"middle\""
              : s.align == anchor::end  ? " text-anchor=\"end\""
                                        : "";
     body_ += s.bold ? " font-weight=\"600\"" : "";
     if (s.rotate != 0) {
-        body_ += std::string{" transform=\"rotate("} + coordinate(s.rotate) + ' ' + coordinate(x) +
-                 ' ' + coordinate(y) + ")\"";
+        body_ += " transform=\"rotate(" + coordinate(s.rotate) + ' ' + coordinate(x) + ' ' +
+                 coordinate(y) + ")\"";
     }
     body_ += std::string(1, '>') + escape(what) + "</text>\n";
     return *this;
 }
 
 SIVID_DECL svg& svg::group(std::string_view tip) {
-    body_ += std::string{"<g>"} + tip_text(tip);
+    body_ += "<g>" + tip_text(tip);
     return opened("</g>\n");
 }
 
 SIVID_DECL svg& svg::clip(double x, double y, double w, double h) {
     std::string const box =
         coordinate(x) + ' ' + coordinate(y) + ' ' + coordinate(w) + ' ' + coordinate(h);
-    body_ += std::string{"<svg"} + attribute("x", x) + attribute("y", y) + attribute("width", w) +
+    body_ += "<svg" + attribute("x", x) + attribute("y", y) + attribute("width", w) +
              attribute("height", h) + " viewBox=\"" + box + "\" overflow=\"hidden\">";
     return opened("</svg>\n");
 }
@@ -90,7 +92,7 @@ SIVID_DECL svg& svg::close() {
 }
 
 SIVID_DECL svg& svg::data(std::string_view name, std::string_view value) {
-    data_ += std::string{" data-"} + std::string{name} + "=\"" + escape(value) + '"';
+    data_ += " data-" + std::string{name} + "=\"" + escape(value) + '"';
     return *this;
 }
 
@@ -104,20 +106,19 @@ SIVID_DECL std::string svg::hatch(std::string_view base, std::string_view ink, d
 
 SIVID_DECL std::string svg::dots(std::string_view base, std::string_view ink, double spacing) {
     return pattern(base, spacing,
-                   std::string{"<circle"} + attribute("cx", spacing / 2) +
-                       attribute("cy", spacing / 2) + " r=\"1\" fill=\"" + escape(ink) + "\"/>",
+                   "<circle" + attribute("cx", spacing / 2) + attribute("cy", spacing / 2) +
+                       " r=\"1\" fill=\"" + escape(ink) + "\"/>",
                    "");
 }
 
 SIVID_DECL std::string svg::str(std::string_view id_prefix) const {
     std::string out =
-        std::string{"<svg xmlns=\"http://www.w3.org/2000/svg\""} + attribute("width", width_) +
+        "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("width", width_) +
         attribute("height", height_) + " viewBox=\"0 0 " + coordinate(width_) + ' ' +
         coordinate(height_) + "\" role=\"img\" aria-label=\"" + escape(label_) + '"' + data_ +
         " font-family=\"system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', "
         "'Liberation Sans', Arial, sans-serif\">\n";
-    out += std::string{"<rect width=\"100%\" height=\"100%\" fill=\""} +
-           std::string{palette::paper} + "\"/>\n";
+    out += "<rect width=\"100%\" height=\"100%\" fill=\"" + std::string{palette::paper} + "\"/>\n";
     std::string all = (definitions_.empty() ? "" : "<defs>" + definitions_ + "</defs>\n") + body_;
     for (auto end = open_.size(); end > 0;) {
         auto const start = open_.rfind('<', end - 1);
@@ -133,7 +134,7 @@ SIVID_DECL std::string svg::attribute(std::string_view name, double value) {
 }
 
 SIVID_DECL std::string svg::tip_text(std::string_view tip) {
-    return tip.empty() ? std::string{} : std::string{"<title>"} + escape(tip) + "</title>";
+    return tip.empty() ? std::string{} : "<title>" + escape(tip) + "</title>";
 }
 
 SIVID_DECL std::string svg::colour(std::string_view value) {
@@ -146,13 +147,12 @@ SIVID_DECL svg& svg::shape(std::string_view name, std::string const& attributes,
     body_ +=
         std::string(1, '<') + std::string{name} + attributes + " fill=\"" + colour(p.fill) + '"';
     if (p.stroke != "none") {
-        body_ += std::string{" stroke=\""} + colour(p.stroke) + '"' +
+        body_ += " stroke=\"" + colour(p.stroke) + '"' +
                  (p.width == 1 ? "" : attribute("stroke-width", p.width));
-        body_ += p.dash.empty() ? "" : std::string{" stroke-dasharray=\""} + escape(p.dash) + '"';
+        body_ += p.dash.empty() ? "" : " stroke-dasharray=\"" + escape(p.dash) + '"';
     }
     body_ += p.opacity == 1 ? "" : attribute("opacity", p.opacity);
-    body_ +=
-        tip.empty() ? "/>\n" : std::string{">"} + tip_text(tip) + "</" + std::string{name} + ">\n";
+    body_ += tip.empty() ? "/>\n" : ">" + tip_text(tip) + "</" + std::string{name} + ">\n";
     return *this;
 }
 

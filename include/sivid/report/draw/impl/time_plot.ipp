@@ -4,47 +4,112 @@
 
 #include <sivid/report/draw/time_plot.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
 namespace sivid::report {
 
-SIVID_DECL std::vector<legend_entry> time_plot_legend(std::vector<channel_series> const& all) {
-    bool measured = false, forced = false, suspect = false, tube = false, reference = false;
-    for (channel_series const& c : all) {
-        tube = tube || !c.tube.empty();
-        reference = reference || !c.reference.empty();
-        for (measured_sample const& m : c.measured) {
-            measured = measured || m.state == sample_state::regular;
-            forced = forced || m.state == sample_state::forced_outlier;
-            suspect = suspect || m.state == sample_state::suspect;
+SIVID_DECL range value_range(channel_series const& c) {
+    range core;
+    range rest;
+    for (measured_sample const& m : c.measured) {
+        if (is_finite(m.value)) {
+            (m.state == sample_state::regular ? core : rest) =
+                hull(m.state == sample_state::regular ? core : rest, m.value);
         }
     }
-    return legend_of({{measured, {symbol::measured, "measured interval"}},
-                      {tube, {symbol::tube, "proven enclosure of the model"}},
-                      {forced, {symbol::forced_outlier, "outlier (proved)"}},
-                      {suspect, {symbol::suspect, "suspected outlier"}},
-                      {reference, {symbol::reference, "reference, not validated"}}});
+    for (auto const* line : {&c.reference, &c.after})
+        for (point const& p : *line) core = hull(core, p.y);
+    for (point const& p : c.before)
+        (c.measured.empty() ? core : rest) = hull(c.measured.empty() ? core : rest, p.y);
+    for (auto const* pieces : {&c.tube, &c.band, &c.windows})
+        for (tube_piece const& t : *pieces) rest = hull(hull(rest, t.value.lo), t.value.hi);
+    for (tube_piece const& t : c.windows) // the end next to 0
+        core = hull(core, t.value.lo > 0 ? t.value.lo : t.value.hi < 0 ? t.value.hi : 0);
+    if (c.zero && !c.margin) core = hull(core, 0.0);
+    if (is_empty(core) || (c.zero && core.lo == core.hi && !is_empty(rest)))
+        core = hull(core, rest);
+    if (is_empty(core)) return {0, 1};
+    range const most = with_margin(axis_range(core), c.windows.empty() && c.band.empty() ? 2 : 1);
+    range shown = core;
+    if (!is_empty(rest)) {
+        shown = hull(hull(core, std::clamp(rest.lo, most.lo, most.hi)),
+                     std::clamp(rest.hi, most.lo, most.hi));
+    }
+    shown = with_margin(axis_range(shown), 0.06);
+    return c.margin ? with_margin(hull(shown, 0.0), 0.03) : shown;
+}
+
+SIVID_DECL range time_range(channel_series const& c) {
+    range out;
+    for (measured_sample const& m : c.measured) out = hull(out, m.time);
+    for (auto const* pieces : {&c.tube, &c.windows})
+        for (tube_piece const& t : *pieces) out = hull(hull(out, t.from), t.to);
+    for (auto const* line : {&c.reference, &c.before, &c.after})
+        for (point const& p : *line) out = hull(out, p.x);
+    return with_margin(axis_range(out), 0.015);
+}
+
+SIVID_DECL std::vector<legend_entry> time_plot_legend(std::vector<channel_series> const& all,
+                                                      series_words const& words) {
+    bool regular = false, forced = false, suspect = false, box = false, idle = false;
+    for (channel_series const& c : all) {
+        for (measured_sample const& m : c.measured) {
+            (m.state == sample_state::regular          ? regular
+             : m.state == sample_state::forced_outlier ? forced
+                                                       : suspect) = true;
+        }
+        for (tube_piece const& t : c.windows)
+            (t.value.lo <= 0 && t.value.hi >= 0 ? idle : box) = true;
+    }
+    auto const any = [&all](auto channel_series::*part) {
+        return std::any_of(all.begin(), all.end(),
+                           [&](auto const& c) { return !(c.*part).empty(); });
+    };
+    bool const measured = regular || suspect, after = any(&channel_series::after);
+    return legend_of(
+        {{regular, {symbol::measured, "measured interval"}},
+         {any(&channel_series::tube), {symbol::tube, words.tube}},
+         {forced, {symbol::forced_outlier, "outlier (proved)"}},
+         {suspect, {symbol::suspect, "suspected outlier"}},
+         {any(&channel_series::reference), {symbol::reference, "reference, not validated"}},
+         {after && !measured, {symbol::line_after, words.after}}, // what counts, first
+         {any(&channel_series::before), {symbol::line_before, words.before}},
+         {after && measured, {symbol::line_after, words.after}},
+         {any(&channel_series::band), {symbol::prior, "its uncertainty (estimate)"}},
+         {box, {symbol::certified_window, "window mean without zero (proved)"}},
+         {idle, {symbol::measured_box, "window mean that may be zero (proved)"}}});
 }
 
 namespace detail {
 
-SIVID_DECL std::vector<measured_sample const*> draw_regular(svg& out, axes const& a,
-                                                            channel_series const& c,
-                                                            std::size_t stride,
-                                                            std::string_view colour) {
-    std::vector<measured_sample const*> marked;
-    for (std::size_t i = 0; i < c.measured.size(); ++i) {
-        measured_sample const& m = c.measured[i];
-        if (!is_finite(m.value) || !std::isfinite(m.time)) continue;
-        if (m.state != sample_state::regular) {
-            marked.push_back(&m);
-        } else if (i % stride == 0) {
-            draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), colour,
-                          stride == 1 ? sample_tip(c, m) : "");
-        }
-    }
-    return marked;
+inline std::string sample_tip(channel_series const& c, measured_sample const& m) {
+    std::string tip = "t = " + given_text(m.time) + unit_suffix(c.time_unit) + ": measured " +
+                      outward_text(m.value) + ' ' + unit_text(c.unit);
+    if (!is_empty(m.enclosure)) tip += ", model within " + outward_text(m.enclosure);
+    return tip + (m.state == sample_state::forced_outlier ? ", outlier (proved)"
+                  : m.state == sample_state::suspect      ? ", suspected outlier"
+                                                          : "");
 }
 
-SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube) {
+/// A frame over time.
+inline axes time_axes(channel_series const& c, time_plot_options const& o, axis y) {
+    return {{"time", c.time_unit, is_empty(o.time) ? time_range(c) : o.time},
+            std::move(y),
+            {.width = o.width, .height = o.height, .title = o.title}};
+}
+
+/// So many samples for each that is drawn.
+inline std::size_t stride_of(channel_series const& c, time_plot_options const& o) {
+    return c.measured.size() / std::max<std::size_t>(o.most_samples, 1) + 1;
+}
+
+/// Draws the tube: one outline for each run without a gap; pieces thinner than half a unit of the
+/// drawing are joined by their hull, so the picture never shows less than the tube.
+inline void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const& tube) {
     struct column {
         double left, right, top, bottom;
     };
@@ -86,8 +151,7 @@ SIVID_DECL void draw_tube(svg& out, axes const& a, std::vector<tube_piece> const
     out.path(edge, {.stroke = palette::tube_edge, .width = 0.8});
 }
 
-SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const& line,
-                               paint const& how) {
+inline void draw_line(svg& out, axes const& a, std::vector<point> const& line, paint const& how) {
     path_data d;
     bool pen_down = false;
     double last_x = 0, last_y = 0;
@@ -106,8 +170,9 @@ SIVID_DECL void draw_reference(svg& out, axes const& a, std::vector<point> const
     out.path(d, how);
 }
 
-SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
-                             std::string_view tip) {
+/// Draws the symbol of a marked sample, or an arrow at the frame when it lies outside.
+inline void draw_outlier(svg& out, axes const& a, measured_sample const& m, double middle,
+                         std::string_view tip) {
     double const y = a.py(middle);
     bool const above = y < a.top() + 6;
     bool const below = y > a.bottom() - 6;
@@ -118,6 +183,67 @@ SIVID_DECL void draw_outlier(svg& out, axes const& a, measured_sample const& m, 
         draw_beyond(out, a.px(m.time), above ? shown - 6 : shown + 6, above,
                     m.state == sample_state::forced_outlier ? palette::outlier : palette::suspect);
     }
+}
+
+inline void draw_band(svg& out, axes const& a, std::vector<tube_piece> const& all) {
+    path_data band;
+    std::vector<tube_piece const*> run;
+    auto const flush = [&] {
+        if (run.size() > 1) {
+            band.move(a.px(run.front()->from), a.py(run.front()->value.hi));
+            for (tube_piece const* p : run) band.line(a.px(p->from), a.py(p->value.hi));
+            for (auto p = run.rbegin(); p != run.rend(); ++p) {
+                band.line(a.px((*p)->from), a.py((*p)->value.lo));
+            }
+            band.close();
+        }
+        run.clear();
+    };
+    for (tube_piece const& p : all) {
+        if (is_empty(p.value) || !std::isfinite(p.from)) {
+            flush();
+        } else {
+            run.push_back(&p);
+        }
+    }
+    flush();
+    out.path(band, {.fill = palette::prior, .opacity = 0.75});
+}
+
+inline void draw_windows(svg& out, axes const& a, channel_series const& c) {
+    for (tube_piece const& t : c.windows) {
+        if (is_empty(t.value) || !(t.from <= t.to)) continue;
+        double const left = a.px(t.from), top = a.py(t.value.hi);
+        double const wide = std::max(a.px(t.to) - left, 1.0);
+        double const high = std::max(a.py(t.value.lo) - top, 1.5);
+        std::string const tip = given_text(t.from) + " to " + given_text(t.to) +
+                                unit_suffix(c.time_unit) + ": " + outward_text(t.value) +
+                                unit_suffix(c.unit) + ", proved";
+        if (t.value.lo <= 0 && t.value.hi >= 0) {
+            out.rect(left, top, wide, high, {.stroke = palette::measurement}, 0, tip);
+        } else {
+            out.rect(left, top, wide, high, {.fill = palette::inside, .opacity = 0.28}, 0, tip);
+            out.rect(left, top, wide, high, {.stroke = palette::inside, .width = 1.6});
+        }
+    }
+}
+
+/// Bars of the regular samples, one in a stride. @returns the others
+inline std::vector<measured_sample const*> draw_regular(svg& out, axes const& a,
+                                                        channel_series const& c, std::size_t stride,
+                                                        std::string_view colour) {
+    std::vector<measured_sample const*> marked;
+    for (std::size_t i = 0; i < c.measured.size(); ++i) {
+        measured_sample const& m = c.measured[i];
+        if (!is_finite(m.value) || !std::isfinite(m.time)) continue;
+        if (m.state != sample_state::regular) {
+            marked.push_back(&m);
+        } else if (i % stride == 0) {
+            draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), colour,
+                          stride == 1 ? sample_tip(c, m) : "");
+        }
+    }
+    return marked;
 }
 
 /// Says that regular samples are left out.
@@ -133,25 +259,44 @@ SIVID_DECL svg draw_time_plot(channel_series const& c, time_plot_options const& 
     auto const entries = o.legend ? time_plot_legend({c}) : std::vector<legend_entry>{};
     svg measure{0, 0, ""};
     double const below = draw_legend(measure, entries, 0, 0, o.width - 60);
-    svg out{o.width, o.height + below, (o.title.empty() ? c.name : o.title) + " over time"};
-    auto const a = detail::time_axes(o, detail::time_range(c), c.time_unit,
-                                     {c.name, c.unit, detail::value_range(c)});
+    bool const compared = !c.before.empty() || !c.after.empty();
+    bool const named = o.title.empty() || o.title == c.name;
+    svg out{o.width, o.height + below,
+            c.name + (compared && !c.measured.empty() ? ", before and after" : " over time") +
+                (named ? "" : ", " + o.title)};
+    auto const a =
+        detail::time_axes(c, o, {c.name, c.unit, is_empty(o.values) ? value_range(c) : o.values});
     a.open(out);
+    if (c.margin) {
+        out.rect(a.left(), a.py(0), a.right() - a.left(), std::max(0.0, a.bottom() - a.py(0)),
+                 {.fill = palette::outlier, .opacity = 0.10}, 0, "violated below this line");
+    }
+    detail::draw_band(out, a, c.band);
     detail::draw_tube(out, a, c.tube);
-    detail::draw_reference(out, a, c.reference);
-
-    std::size_t const stride = c.measured.size() / std::max<std::size_t>(o.most_samples, 1) + 1;
-    auto const marked = detail::draw_regular(out, a, c, stride, palette::measurement);
+    if (c.zero)
+        out.line(a.left(), a.py(0), a.right(), a.py(0),
+                 {.stroke = palette::ink, .width = c.margin ? 1.3 : 1.1});
+    detail::draw_windows(out, a, c);
+    detail::draw_line(out, a, c.reference, {.stroke = palette::truth, .width = 1.2, .dash = "5 3"});
+    // Lines that are compared are drawn above the bars.
+    auto const stride = detail::stride_of(c, o);
+    auto const marked =
+        detail::draw_regular(out, a, c, stride, compared ? palette::frame : palette::measurement);
+    detail::draw_line(out, a, c.before, line_before_paint);
+    detail::draw_line(out, a, c.after, line_after_paint);
     for (std::size_t i = 0; i < marked.size(); ++i) {
         measured_sample const& m = *marked[i];
-        draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::outlier);
+        if (!compared)
+            draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::outlier);
         if (i < 4 * o.most_samples) {
             detail::draw_outlier(out, a, m, approximate_middle(m.value), detail::sample_tip(c, m));
         }
     }
     a.close(out);
-    if (c.measured.empty() && c.tube.empty() && c.reference.empty()) {
-        a.say(out, "no data");
+    bool const nothing = c.measured.empty() && c.tube.empty() && c.reference.empty() && !compared &&
+                         c.windows.empty();
+    if (nothing) {
+        a.say(out, "no data", c.zero ? std::optional{a.top() + 16} : std::nullopt);
     } else {
         detail::say_stride(out, a, stride);
     }
@@ -178,8 +323,7 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
             shown = hull(hull(shown, std::clamp(r.lo, -4.0, 4.0)), std::clamp(r.hi, -4.0, 4.0));
         }
     }
-    auto const a =
-        detail::time_axes(o, detail::time_range(c), c.time_unit, {"model / bound", "", shown});
+    auto const a = detail::time_axes(c, o, {"model / bound", "", shown});
     a.open(out);
     out.rect(a.left(), a.py(1), a.right() - a.left(), a.py(-1) - a.py(1), {.fill = "#eef2f6"});
     out.path(path_data{}
@@ -188,7 +332,7 @@ SIVID_DECL svg draw_residual_plot(channel_series const& c, time_plot_options con
                  .move(a.left(), a.py(-1))
                  .line(a.right(), a.py(-1)),
              {.stroke = palette::ink, .width = 1.1});
-    std::size_t const stride = c.measured.size() / std::max<std::size_t>(o.most_samples, 1) + 1;
+    auto const stride = detail::stride_of(c, o);
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < c.measured.size(); ++i) {
         measured_sample const& m = c.measured[i];

@@ -3,16 +3,14 @@
 #define SIVID_VERIFIER_CLAIM_DETAIL_IDENTIFICATION_CHECK_WORK_HPP
 
 #include <sivid/io/result/stored_identification.hpp>
-#include <sivid/verifier/claim/check_finding.hpp>
-#include <sivid/verifier/claim/detail/drawing_check.hpp>
-#include <sivid/verifier/claim/detail/fewest_outliers_check.hpp>
-#include <sivid/verifier/claim/detail/forced_outlier_check.hpp>
-#include <sivid/verifier/claim/detail/identifiability_check.hpp>
-#include <sivid/verifier/claim/detail/identification_consistency.hpp>
-#include <sivid/verifier/claim/detail/output_check.hpp>
+#include <sivid/model/problem.hpp>
+#include <sivid/paving/identifiability.hpp>
+#include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
+#include <sivid/space/box.hpp>
+#include <sivid/verifier/check_finding.hpp>
 #include <sivid/verifier/claim/detail/paving_check.hpp>
-#include <sivid/verifier/claim/detail/product_check.hpp>
-#include <sivid/verifier/claim/identification_check_options.hpp>
+#include <sivid/verifier/claim/detail/stored_claims.hpp>
+#include <sivid/verifier/claim/detail/witness_checks.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -25,6 +23,67 @@
 #include <vector>
 
 namespace sivid {
+
+/// What of it is called proved.
+[[nodiscard]] inline stored_identification::identifiability_claims
+claims_of(identifiability const& found) {
+    stored_identification::identifiability_claims result;
+    for (auto const& q : found.unknowns) {
+        result.unknowns.push_back(q.name);
+        result.at[q.name] =
+            q.experiment ? found.starts[*q.experiment][q.index] : found.parameters[q.index];
+    }
+    result.least_rank = found.least_rank;
+    result.most_rank = found.most_rank;
+    for (auto const& m : found.free) {
+        if (!m.proved) continue;
+        std::map<std::string, long> weights;
+        for (std::size_t c = 0; c < m.weights.size(); ++c) {
+            if (m.weights[c] != 0) weights[found.unknowns[c].name] = m.weights[c];
+        }
+        result.proved.push_back(io_detail::motion_claim(
+            m.kind == motion_kind::scaling ? "scaling" : "translation", weights));
+    }
+    for (auto const& f : found.fixed)
+        if (f.proved) result.proved.push_back("fixed " + f.formula);
+    return result;
+}
+
+/// Ranks, motions and formulas that a result calls proved, computed anew from the equations.
+/// @param keep_going  once false, what is not computed by then is not decided
+[[nodiscard]] inline check_finding
+check_identifiability(identification_problem const& problem, stored_identification const& stored,
+                      std::function<bool()> const& keep_going = nullptr) {
+    using outcome = check_finding::outcome;
+    std::string const what = "identifiability";
+    if (!stored.identifiability) return {what, outcome::nothing, ""};
+    auto const& said = *stored.identifiability;
+    identifiability_options options;
+    options.enclosure.keep_going = keep_going;
+    auto at = problem.prior;
+    for (auto const& e : problem.experiments) options.at_starts.push_back(e.initial);
+    for (auto const& q : unknowns_of(problem, true)) {
+        auto const own = said.at.find(q.name);
+        if (own == said.at.end())
+            return {what, outcome::undecided, "for which " + q.name + " is not stated"};
+        (q.experiment ? options.at_starts[*q.experiment] : at)[q.index] = own->second;
+    }
+    auto const found = claims_of(identifiability_of(problem, at, options));
+    if (said.unknowns != found.unknowns)
+        return {what, outcome::refuted, "other unknowns than those of the problem"};
+    if (said.least_rank > found.most_rank || said.most_rank < found.least_rank)
+        return {what, outcome::refuted,
+                "the rank is " + std::to_string(found.least_rank) + " to " +
+                    std::to_string(found.most_rank)};
+    if (said.least_rank > found.least_rank || said.most_rank < found.most_rank)
+        return {what, outcome::undecided, "the rank is not proved anew"};
+    for (auto const& claim : said.proved) {
+        if (std::find(found.proved.begin(), found.proved.end(), claim) == found.proved.end())
+            return {what, outcome::undecided, "not proved anew: " + claim};
+    }
+    return {what, outcome::verified,
+            "rank and " + std::to_string(said.proved.size()) + " formulas and motions, anew"};
+}
 
 namespace io_detail {
 
@@ -74,18 +133,16 @@ public:
             return check_stop(*stored_, by_products ? rebuilt.problem.prior : problem_->prior);
         });
         add([&] {
-            return by_products
-                       ? check_verdict_of_products<Fast>(*stored_, rebuilt, problem_->prior, limit_)
-                       : check_verdict(*stored_);
+            return by_products ? check_verdict_of_products(*problem_, *stored_, limit_)
+                               : check_verdict(*stored_);
         });
         add([&] {
             return by_products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt)
                                : check_hull(*problem_, *stored_);
         });
         add([&] {
-            return by_products
-                       ? check_volumes_of_products<Fast>(*problem_, *stored_, rebuilt, limit_)
-                       : check_volumes(*problem_, *stored_);
+            return by_products ? check_volumes_of_products(*problem_, *stored_, limit_)
+                               : check_volumes(*problem_, *stored_);
         });
         add([&] {
             return by_products ? check_combinations_of_products(*stored_)
@@ -147,39 +204,6 @@ public:
 private:
     using outcome = check_finding::outcome;
 
-    /// The parameters and starts of the witness, if they fit the problem.
-    struct point {
-        std::vector<double> parameters;
-        std::vector<std::vector<double>> starts;
-    };
-    [[nodiscard]] std::optional<point> witness_point(std::string& fault) const {
-        point result;
-        auto const look = [&](std::map<std::string, double> const& values,
-                              std::string const& name) {
-            auto const found = values.find(name);
-            if (found == values.end()) fault = "the witness lacks " + name;
-            return found == values.end() ? 0.0 : found->second;
-        };
-        for (auto const& name : problem_->choice.unknown) {
-            result.parameters.push_back(look(stored_->witness->parameters, name));
-        }
-        if (!contains(problem_->prior, result.parameters)) fault = "the witness leaves the prior";
-        for (auto const& e : problem_->experiments) {
-            auto const found = stored_->witness->initial.find(e.name);
-            if (found == stored_->witness->initial.end()) {
-                fault = "the witness has no start for " + e.name;
-                return std::nullopt;
-            }
-            auto& start = result.starts.emplace_back();
-            for (auto const& state : problem_->model.about.states) {
-                start.push_back(look(found->second, state.name));
-            }
-            if (!contains(e.initial, start)) fault = "the start in " + e.name + " is not allowed";
-        }
-        if (!fault.empty()) return std::nullopt;
-        return result;
-    }
-
     /// How single points are followed.
     [[nodiscard]] enclosure_options of_points() const {
         enclosure_options fine{
@@ -191,7 +215,7 @@ private:
     [[nodiscard]] check_finding witness() {
         std::string fault;
         if (!stored_->witness) return {"witness", outcome::nothing, fault};
-        auto const w = witness_point(fault);
+        auto const w = io_detail::witness_point(*problem_, *stored_, fault);
         if (!w) return {"witness", outcome::refuted, fault};
         auto const fine = of_points();
         check_finding result{"witness", outcome::verified, ""};

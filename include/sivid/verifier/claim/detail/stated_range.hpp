@@ -5,13 +5,18 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
+#include <sivid/verifier/check_finding.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
+#include <utility>
 
-namespace sivid::io_detail {
+namespace sivid {
+
+namespace io_detail {
 
 /// A side and a box in the arithmetic of I.
 template <class I>
@@ -84,6 +89,66 @@ inline interval share_of(box const& x, box const& prior) {
     return traits::bounds(std::max(0.0, share(smallest).lower()), share(largest).upper());
 }
 
-} // namespace sivid::io_detail
+/// Takes a part of a box whose sides are large against a prior's, anywhere in it.
+/// @param share  a number of [0, 1), by chance
+template <class Share>
+void shrink_to_share(box& part, box const& prior, Share const& share) {
+    for (std::size_t j = 0; j < part.size(); ++j) {
+        double const most = width(prior[j]) / 16, w = width(part[j]);
+        if (!(w > most)) continue;
+        double const low = part[j].lower() + share() * (w - most);
+        part[j] = intersect(part[j], interval_traits<interval>::bounds(low, low + most));
+    }
+}
+
+/// The worst of what became of several statements, and why.
+class finding_of_all {
+    using outcome = check_finding::outcome;
+
+public:
+    void note(outcome o, std::string const& why) {
+        if (o == outcome::nothing) return;
+        ++count_;
+        bool const worse = rank(o) > rank(worst_);
+        if (worse) why_ = why;
+        if (worse) worst_ = o;
+    }
+    [[nodiscard]] check_finding finding(std::string what, std::string const& good) const {
+        if (count_ == 0) return {std::move(what), outcome::nothing, ""};
+        return {std::move(what), worst_, worst_ == outcome::verified ? good : why_};
+    }
+
+private:
+    [[nodiscard]] static int rank(outcome o) {
+        return o == outcome::refuted ? 2 : o == outcome::undecided ? 1 : 0;
+    }
+    outcome worst_ = outcome::verified;
+    std::string why_;
+    std::size_t count_ = 0;
+};
+
+/// By more than what printing and reading cost.
+[[nodiscard]] inline bool below(double a, double b) {
+    if (!std::isfinite(a) || !std::isfinite(b)) return a < b;
+    return a < b - cost_of_rounding(b, 8);
+}
+/// Whether what was proved lies in what is stated, but for what printing and reading cost.
+[[nodiscard]] inline bool within_stated(interval const& proved, interval const& stated) {
+    if (is_empty(proved)) return true;
+    return !is_empty(stated) && !below(proved.lower(), stated.lower()) &&
+           !below(stated.upper(), proved.upper());
+}
+/// Refuted where no number lies in both.
+[[nodiscard]] inline check_finding::outcome compared(interval const& proved,
+                                                     interval const& stated) {
+    if (within_stated(proved, stated)) return check_finding::outcome::verified;
+    bool const apart = is_empty(stated) || below(stated.upper(), proved.lower()) ||
+                       below(proved.upper(), stated.lower());
+    return apart ? check_finding::outcome::refuted : check_finding::outcome::undecided;
+}
+
+} // namespace io_detail
+
+} // namespace sivid
 
 #endif
