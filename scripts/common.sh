@@ -80,7 +80,7 @@ job_count() {
 need_check_packages() {
     need_packages g++ clang cmake make ninja-build libboost-dev libeigen3-dev nlohmann-json3-dev libcli11-dev catch2 \
         libmpfr-dev libmpfi-dev libgmp-dev libbenchmark-dev libfmt-dev libtbb-dev libboost-mpi-dev openmpi-bin libopenmpi-dev \
-        pkg-config dpkg-dev file debootstrap
+        libmatio-dev zlib1g-dev pkg-config dpkg-dev file debootstrap
 }
 
 # configure_check [ON]: the build tree of scripts/check, or (ON) of scripts/check-long; its name is then in $build.
