@@ -100,10 +100,9 @@ TEST_CASE("variables of both byte orders, exactly") {
 
 TEST_CASE("NaN is no reading, infinite numbers are told") {
     matlab_writer const w;
-    auto const file =
-        read(w.file(w.doubles("x", 2, 1,
-                              {std::numeric_limits<double>::quiet_NaN(),
-                               -std::numeric_limits<double>::infinity()})));
+    auto const file = read(w.file(w.doubles(
+        "x", 2, 1,
+        {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()})));
     CHECK_FALSE(file.variables[0].at(0, 0));
     CHECK_THROWS_AS(file.variables[0].at(1, 0), std::range_error);
 }
@@ -112,9 +111,9 @@ TEST_CASE(
     "what cannot be read is listed: complex, text, of three dimensions, lists of structures") {
     matlab_writer const w;
     auto const real = w.element(9, w.numbers<double>({1}));
-    auto const two_of_one_field =
-        w.element(5, w.number(std::int32_t{16})) + w.element(1, "u" + std::string(15, '\0')) +
-        w.doubles("", 1, 1, {1}) + w.doubles("", 1, 1, {2});
+    auto const two_of_one_field = w.element(5, w.number(std::int32_t{16})) +
+                                  w.element(1, "u" + std::string(15, '\0')) +
+                                  w.doubles("", 1, 1, {1}) + w.doubles("", 1, 1, {2});
     auto const eight = w.element(9, w.numbers<double>({1, 2, 3, 4, 5, 6, 7, 8}));
     auto const dims3 = w.element(14, w.element(6, w.number(6U) + w.number(0U)) +
                                          w.element(5, w.number(2) + w.number(2) + w.number(2)) +
@@ -131,11 +130,10 @@ TEST_CASE(
 TEST_CASE("objects are listed, and leave the variables beside them readable") {
     for (bool const little : {true, false}) {
         matlab_writer const w{little};
-        auto const file =
-            read(w.file(w.object("T", "table") + w.doubles("y", 2, 1, {1, 2}) +
-                        w.structure("log", {{"d", w.object("", "datetime")},
-                                            {"u", w.doubles("", 1, 1, {7})}}) +
-                        w.matrix(9, "", 1, 3, w.element(2, "abc")))); // their store
+        auto const file = read(w.file(
+            w.object("T", "table") + w.doubles("y", 2, 1, {1, 2}) +
+            w.structure("log", {{"d", w.object("", "datetime")}, {"u", w.doubles("", 1, 1, {7})}}) +
+            w.matrix(9, "", 1, 3, w.element(2, "abc")))); // their store
         REQUIRE(file.variables.size() == 4);
         CHECK(file.variables[0].object); // libmatio 1.5 does not know its name
         CHECK_FALSE(file.variables[0].numeric());

@@ -63,8 +63,7 @@ private:
         constexpr std::string_view hdf = "\x89HDF\r\n";
         if (text.size() > 520 && text.substr(512).starts_with(hdf)) return;
         auto const order = text.size() < whole_level5::head ? "" : text.substr(126, 2);
-        if (order != "IM" && order != "MI")
-            fail("no MATLAB file of level 5 or of version 7.3");
+        if (order != "IM" && order != "MI") fail("no MATLAB file of level 5 or of version 7.3");
         if (text[order == "IM" ? 125 : 124] != 1)
             fail("a MATLAB file of another version than level 5 or 7.3");
         if (!whole_level5{text, static_cast<std::size_t>(largest_text)})
@@ -142,8 +141,8 @@ private:
     void take(matvar_t& v, matlab_variable& result) {
         auto const most = (static_cast<std::size_t>(largest_text) - bytes_) / sizeof(Kept);
         if (result.rows != 0 && result.columns > most / result.rows)
-            fail(text_of("it is damaged, or its numbers are more than 1 GB (", in_quotes(result.name),
-                         " is ", result.about, ")"));
+            fail(text_of("it is damaged, or its numbers are more than 1 GB (",
+                         in_quotes(result.name), " is ", result.about, ")"));
         auto const count = result.rows * result.columns;
         bytes_ += count * sizeof(Kept);
         if (count == 0) {

@@ -44,8 +44,8 @@ TEST_CASE("fixed values and stated starts are read in the units that the mapping
         auto const text = replaced(csv_mapping, "\"g\": 9.81", "\"g\": " + g);
         return replaced(text, "\"h\": [0, 1]", "\"h\": " + h);
     };
-    auto const stated = with(R"({"value": 981, "unit": "cm/s^2"})",
-                             R"({"range": [10, 100], "unit": "cm"})");
+    auto const stated =
+        with(R"({"value": 981, "unit": "cm/s^2"})", R"({"range": [10, 100], "unit": "cm"})");
     temporary_folder const folder;
     folder.write("mapping.json", stated);
     folder.write("a.csv", small_table);
@@ -63,8 +63,7 @@ TEST_CASE("fixed values and stated starts are read in the units that the mapping
     CHECK_THROWS_WITH(read_dataset(folder.path() / "out", names),
                       ContainsSubstring("'cm' is the unit of the state 'h'"));
     // Without a unit the long forms mean the short ones.
-    auto const plain =
-        import_csv(with(R"({"value": 9.81})", R"({"range": [0, 1]})"), small_table);
+    auto const plain = import_csv(with(R"({"value": 9.81})", R"({"range": [0, 1]})"), small_table);
     CHECK(plain.data.fixed.at(0).stated == dec("9.81"));
     CHECK(plain.data.scenarios.at(0).initial.at(0).stated->upper == dec("1"));
     CHECK_THAT(refusal(with(R"({"value": 981, "unit": "hours of sleep"})", "[0, 1]"), small_table),

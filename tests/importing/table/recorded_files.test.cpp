@@ -74,13 +74,13 @@ TEST_CASE("MATLAB files go through the program's function, or are refused with a
         (void)import_dataset(mapping);
         FAIL("imported without a reader");
     } catch (input_error const& e) {
-        CHECK_THAT(e.what(), ContainsSubstring("a.csv: a MATLAB file") &&
-                                 ContainsSubstring("libmatio-dev"));
+        CHECK_THAT(e.what(),
+                   ContainsSubstring("a.csv: a MATLAB file") && ContainsSubstring("libmatio-dev"));
     }
     import_tools tools;
     tools.read_matlab = [](fs::path const& file) {
-        return matlab_file{file.string(), {{"y", "double 1x3", false, 1, 3,
-                                            std::vector<double>{1, 2, 4}}}};
+        return matlab_file{file.string(),
+                           {{"y", "double 1x3", false, 1, 3, std::vector<double>{1, 2, 4}}}};
     };
     auto const r = import_dataset(mapping, tools);
     CHECK(r.data.scenarios.at(0).duration == 1);

@@ -81,8 +81,8 @@ private:
             auto const value = (plain ? entry : entry.at("value")).number();
             auto const* unit = plain ? nullptr : entry.find("unit");
             if (unit != nullptr) (void)read_unit(*unit);
-            result.fixed.push_back({fixed->name_of(i), value, *enclose(value),
-                                    unit ? unit->any_string() : ""});
+            result.fixed.push_back(
+                {fixed->name_of(i), value, *enclose(value), unit ? unit->any_string() : ""});
         }
     }
 

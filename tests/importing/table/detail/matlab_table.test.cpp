@@ -115,9 +115,9 @@ TEST_CASE("references that do not fit are refused at their place") {
         "a variable has no number");
     has(mapping(by_t, "t", "log.h("), "has no variable");
     auto const wrong = [](double a, double b, std::string const& message) {
-        CHECK_THAT(refusal(mapping(by_t, "t", "t"), w.file(w.doubles("t", 1, 2, {a, b})),
-                           with_matio()),
-                   ContainsSubstring(message));
+        CHECK_THAT(
+            refusal(mapping(by_t, "t", "t"), w.file(w.doubles("t", 1, 2, {a, b})), with_matio()),
+            ContainsSubstring(message));
     };
     wrong(1, 0, "line 2 (t): the time goes back from 1 to 0 s; the recorder began again");
     wrong(0, missing, "line 2 (t): the time is missing");

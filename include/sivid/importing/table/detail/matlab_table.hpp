@@ -56,8 +56,7 @@ struct matlab_variable {
         return read(row, column, [](auto x) {
             std::array<char, 32> text;
             auto* const end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
-            return exact_decimal::parse(
-                {text.data(), static_cast<std::size_t>(end - text.data())});
+            return exact_decimal::parse({text.data(), static_cast<std::size_t>(end - text.data())});
         });
     }
 
@@ -138,8 +137,7 @@ struct matlab_vector {
     if (found == nullptr)
         fail(text_of(" has no variable ", in_quotes(std::string{name})), "it has: " + known);
     auto const what = text_of(": ", in_quotes(found->name), " is ", found->about);
-    if (found->object)
-        fail(what + ", which MATLAB alone can take apart", std::string{of_objects});
+    if (found->object) fail(what + ", which MATLAB alone can take apart", std::string{of_objects});
     if (!found->numeric())
         fail(what + ", no full real matrix of numbers", "name another; it has: " + known);
     matlab_vector result{found, true, 0};
