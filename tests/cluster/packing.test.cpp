@@ -81,7 +81,7 @@ TEST_CASE("numbers, texts and boxes come back bit for bit") {
     CHECK_THROWS_AS(in.take<double>(), boost::archive::archive_exception);
 }
 
-TEST_CASE("answers come back whole; what is left of a box may be nothing") {
+TEST_CASE("answers come back whole, and what is left of a box may be nothing") {
     support::draws d(7102);
     for (int round = 0; round < 30; ++round) {
         auto const x = drawn(d);

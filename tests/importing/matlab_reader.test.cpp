@@ -143,7 +143,7 @@ TEST_CASE("objects are listed, and leave the variables beside them readable") {
     }
 }
 
-TEST_CASE("compressed variables are read; a changed bit in one is seen") {
+TEST_CASE("compressed variables are read, and a changed bit in one is seen") {
     matlab_writer const w;
     auto const stream = packed(w.doubles("t", 2, 1, {1, 2}));
     auto const with = [&](std::string const& s) {
