@@ -19,6 +19,8 @@ function(sivid_install_pkgconfig component description requires)
         set(cflags " -I\${includedir}")
     elseif(component STREQUAL "parallel")
         set(cflags " -DSIVID_HAS_TBB=1")
+    elseif(component STREQUAL "matlab")
+        set(cflags " -DSIVID_HAS_MATIO=1")
     elseif(component STREQUAL "cluster")
         set(cflags " -DSIVID_HAS_MPI=1")
     endif()
@@ -53,6 +55,9 @@ foreach(component IN LISTS sivid_components)
         sivid_install_pkgconfig(verifier "Checks of stored results of sivid" "sivid-io = ${PROJECT_VERSION}")
     elseif(component STREQUAL "importing")
         sivid_install_pkgconfig(importing "Tables and logs as data sets of sivid" "sivid-io = ${PROJECT_VERSION}")
+    elseif(component STREQUAL "matlab")
+        sivid_install_pkgconfig(matlab "Files of MATLAB as data sets of sivid"
+                                "sivid-importing = ${PROJECT_VERSION}, matio, zlib")
     elseif(component STREQUAL "report")
         sivid_install_pkgconfig(report "Reports of sivid" "sivid-io = ${PROJECT_VERSION}")
     elseif(component STREQUAL "parallel")
@@ -84,7 +89,8 @@ configure_package_config_file(
 sivid_write_version_file("${PROJECT_BINARY_DIR}/sividConfigVersion.cmake" "${PROJECT_VERSION}")
 install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/sividConfigVersion.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
-install(FILES "${CMAKE_CURRENT_LIST_DIR}/find_mpi.cmake" DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
+install(FILES "${CMAKE_CURRENT_LIST_DIR}/find_mpi.cmake" "${CMAKE_CURRENT_LIST_DIR}/find_matio.cmake"
+        DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/compiled.cmake" DESTINATION "${sivid_package_dir}" RENAME sivid_compiled.cmake
         COMPONENT sivid_headers)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"

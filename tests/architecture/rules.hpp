@@ -104,6 +104,8 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     if (one_of({"nlohmann/"})) return floor == "io" || floor == "report";
     if (one_of({"fmt/"})) return floor == "number" && file == "format.hpp";
     if (one_of({"mpi.h"})) return floor == "cluster";
+    if (one_of({"matio.h"})) return file == "matlab_reader.hpp";
+    if (one_of({"zlib.h"})) return file == "whole_level5.hpp";
     if (one_of({"tbb/", "oneapi/"})) return floor == "parallel";
     if (name.find('/') != std::string_view::npos)
         return one_of({"sys/"}) && (floor == "io" || floor == "parallel");

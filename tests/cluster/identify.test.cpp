@@ -33,7 +33,7 @@ struct helpers {
     }
     ~helpers() {
         for (std::size_t k = 0; k < threads.size(); ++k)
-            office->of_first->send(k, cluster::to_bytes({cluster::frame::kind::end, 0, {}}));
+            office->of_first->send(k, {cluster::message::kind::end});
         for (auto& t : threads) t.join();
     }
 };

@@ -21,42 +21,34 @@ TEST_CASE("a worker answers what it is asked once it has taken the work up, unti
                            ++answers;
                            return std::string{request};
                        }};
-    coordinator.send(0, to_bytes({frame::kind::ask, 1, "too early"}));
-    wire_writer about;
-    about.put(std::string_view{"this"});
-    coordinator.send(0, to_bytes({frame::kind::hello, 0, about.take()}));
-    coordinator.send(0, to_bytes({frame::kind::ask, 2, "question"}));
-    coordinator.send(0, to_bytes({frame::kind::end, 0, {}}));
-    coordinator.send(0, to_bytes({frame::kind::ask, 3, "too late"}));
+    coordinator.send(0, {message::kind::ask, 1, "too early"});
+    coordinator.send(0, {message::kind::hello, 0, "this"});
+    coordinator.send(0, {message::kind::ask, 2, "question"});
+    coordinator.send(0, {message::kind::end, 0, {}});
+    coordinator.send(0, {message::kind::ask, 3, "too late"});
     worker m(*office.of_workers[0], identity_of_program());
     CHECK(m.wanted());
     m.serve(work);
     CHECK(told == "this");
     CHECK(answers == 1);
 
-    auto const welcome = frame_of(coordinator.receive()->bytes);
-    REQUIRE(welcome.what == frame::kind::welcome);
-    wire_reader in(welcome.body);
-    auto const who = take_identity(in);
+    auto const welcome = coordinator.receive()->says;
+    REQUIRE(welcome.what == message::kind::welcome);
     auto mine = identity_of_program();
     mine.parts.push_back({"problem", "p", "-"});
-    CHECK(mine.differing(who) == nullptr);
-    auto const answer = frame_of(coordinator.receive()->bytes);
-    CHECK(answer.what == frame::kind::answer);
+    CHECK(mine.differing(welcome.who) == nullptr);
+    auto const answer = coordinator.receive()->says;
+    CHECK(answer.what == message::kind::answer);
     CHECK(answer.number == 2);
-    wire_reader body(answer.body);
-    CHECK(body.real() >= 0);
-    CHECK_FALSE(body.flag());
-    CHECK(body.text() == "question");
+    CHECK(answer.seconds >= 0);
+    CHECK_FALSE(answer.cut_short);
+    CHECK(answer.body == "question");
     CHECK_FALSE(coordinator.receive());
 }
 
 TEST_CASE("a stop that arrives with what it stops is not lost") {
     memory_transport office(1);
     auto& coordinator = *office.of_first;
-    wire_writer about;
-    about.put(std::string_view{""});
-    auto const hello = about.take();
     std::vector<bool> wanted;
     worker m(*office.of_workers[0], identity_of_program());
     service const work{[](std::string_view) { return identity{}; },
@@ -64,15 +56,15 @@ TEST_CASE("a stop that arrives with what it stops is not lost") {
                            wanted.push_back(m.wanted());
                            return std::string{};
                        }};
-    coordinator.send(0, to_bytes({frame::kind::stop, 0, {}})); // of what was before
-    coordinator.send(0, to_bytes({frame::kind::hello, 0, hello}));
-    coordinator.send(0, to_bytes({frame::kind::ask, 1, {}}));
-    coordinator.send(0, to_bytes({frame::kind::end, 0, {}}));
+    coordinator.send(0, {message::kind::stop, 0, {}}); // of what was before
+    coordinator.send(0, {message::kind::hello, 0, {}});
+    coordinator.send(0, {message::kind::ask, 1, {}});
+    coordinator.send(0, {message::kind::end, 0, {}});
     m.serve(work);
-    coordinator.send(0, to_bytes({frame::kind::hello, 0, hello}));
-    coordinator.send(0, to_bytes({frame::kind::ask, 2, {}}));
-    coordinator.send(0, to_bytes({frame::kind::stop, 0, {}}));
-    coordinator.send(0, to_bytes({frame::kind::end, 0, {}}));
+    coordinator.send(0, {message::kind::hello, 0, {}});
+    coordinator.send(0, {message::kind::ask, 2, {}});
+    coordinator.send(0, {message::kind::stop, 0, {}});
+    coordinator.send(0, {message::kind::end, 0, {}});
     m.serve(work);
     CHECK(wanted == std::vector<bool>{true, false});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A coordinator and its workers in threads: everything is done once, whoever does it; strangers,
-// faults and damaged messages end the work with words.
+// faults and messages that nobody sends end the work with words.
 #include <sivid/cluster/worker.hpp>
 #include <sivid/cluster/worker_pool.hpp>
 
@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <thread>
 
 using namespace sivid::cluster;
 using cluster_test::workers_in_threads;
@@ -85,7 +86,7 @@ TEST_CASE("strangers are told apart and named") {
             },
             [program](std::size_t k) {
                 auto who = identity_of_program();
-                if (k == 1 && program) who.parts[2].value = "0000-1";
+                if (k == 1 && program) who.parts[1].value = "0000-1";
                 return who;
             });
         all.helpers.begin("", of_echo);
@@ -114,24 +115,17 @@ TEST_CASE("a worker's fault is told with its words") {
     }
 }
 
-TEST_CASE("damaged messages, and such as nobody sends, are refused by both sides") {
+TEST_CASE("messages that nobody sends are refused by both sides") {
     memory_transport office(1);
     worker_pool helpers(*office.of_first, identity_of_program());
     helpers.begin("", of_echo);
-    auto const good = to_bytes({frame::kind::answer, 1, {}});
-    for (auto const& bytes :
-         {std::string{}, std::string{"hello"}, good.substr(0, 20), good + "x",
-          to_bytes({frame::kind::ask, 1, {}}), to_bytes({frame::kind::welcome, 0, "??"}), good}) {
-        office.of_workers[0]->send(0, bytes);
-        CHECK_THROWS_AS(helpers.ask(tasks(1), always), wire_error);
-    }
+    office.of_workers[0]->send(0, {message::kind::ask, 1, {}});
+    CHECK_THROWS_AS(helpers.ask(tasks(1), always), std::logic_error);
     worker m(*office.of_workers[0], identity_of_program());
     while (office.of_workers[0]->receive()) {
     }
-    office.of_first->send(0, "what?");
-    CHECK_THROWS_AS(m.serve(echo), wire_error);
-    office.of_first->send(0, to_bytes({frame::kind::welcome, 0, {}}));
-    CHECK_THROWS_AS(m.serve(echo), wire_error);
+    office.of_first->send(0, {message::kind::welcome, 0, {}});
+    CHECK_THROWS_AS(m.serve(echo), std::logic_error);
 }
 
 TEST_CASE("told to stop, workers end soon and say so, and nobody waits for the silent for ever") {
@@ -163,4 +157,64 @@ TEST_CASE("told to stop, workers end soon and say so, and nobody waits for the s
     auto const until = std::chrono::steady_clock::now() + 200ms;
     (void)all.helpers.ask(tasks(1), [&] { return std::chrono::steady_clock::now() < until; });
     CHECK(finished > static_cast<int>(answered));
+}
+
+TEST_CASE("alone or with others, a coordinator's own thread works, and all are let go") {
+    for (std::size_t const others : {0u, 2u}) {
+        memory_transport office(others);
+        identity const mine{{{"task", "count", "-"}}};
+        std::atomic<bool> at_work = false; // the others do not take all before
+        std::vector<std::thread> threads;
+        for (std::size_t k = 0; k < others; ++k) {
+            threads.emplace_back([&, k] {
+                worker m(*office.of_workers[k], identity_of_program());
+                m.serve({[&](std::string_view) { return mine; },
+                         [&](std::string_view text) {
+                             while (!at_work) std::this_thread::sleep_for(1ms);
+                             return std::string{text} + "there";
+                         }});
+            });
+        }
+        std::size_t here = 0;
+        {
+            working_coordinator all(*office.of_first, "", mine,
+                                    [&](worker& self, std::string_view text) {
+                                        at_work = true;
+                                        CHECK(self.wanted());
+                                        return std::string{text} + "here";
+                                    });
+            CHECK(all.helpers().size() == others + 1);
+            std::vector<worker_pool::task> tasks(40, {[](std::size_t) { return "done "; }});
+            for (auto const& a : all.helpers().ask(tasks, [] { return true; })) {
+                REQUIRE(a);
+                here += a->body == "done here" ? 1 : 0;
+                CHECK((a->body == "done here" || a->body == "done there"));
+            }
+        }
+        CHECK(here > 0);
+        if (others == 0) CHECK(here == 40);
+        for (auto& t : threads) t.join();
+    }
+}
+
+TEST_CASE("those who wait for work that never came are released") {
+    memory_transport office(1);
+    std::thread helper([&] {
+        worker m(*office.of_workers[0], identity_of_program());
+        m.serve({});
+    });
+    release(*office.of_first);
+    helper.join();
+    CHECK_FALSE(office.of_first->receive());
+}
+
+TEST_CASE("they are released with the end of a life, unless work has come") {
+    memory_transport office(1);
+    for (bool const work : {true, false}) {
+        {
+            released_at_end idle(*office.of_first);
+            if (work) idle.work_has_come();
+        }
+        CHECK(office.of_workers[0]->receive().has_value() == !work);
+    }
 }

@@ -67,19 +67,21 @@ inline std::string serial_lines(unsigned from, unsigned count, unsigned bits = 1
 }
 
 /// Imports what lies in the folder, and reads the written data set back.
-inline sivid::imported_dataset import_in(temporary_folder const& folder) {
+inline sivid::imported_dataset import_in(temporary_folder const& folder,
+                                         sivid::import_tools const& tools = {}) {
     auto const mapping = sivid::read_import_mapping(folder.path() / "mapping.json");
-    auto result = sivid::import_dataset(mapping);
+    auto result = sivid::import_dataset(mapping, tools);
     sivid::write_import(result, folder.path() / "out");
     (void)sivid::read_dataset(folder.path() / "out", result.names);
     return result;
 }
 
-inline sivid::imported_dataset import_csv(std::string_view mapping, std::string_view table) {
+inline sivid::imported_dataset import_csv(std::string_view mapping, std::string_view table,
+                                          sivid::import_tools const& tools = {}) {
     temporary_folder const folder;
     folder.write("mapping.json", mapping);
     folder.write("a.csv", table);
-    return import_in(folder);
+    return import_in(folder, tools);
 }
 inline sivid::imported_dataset import_serial(std::string_view mapping, std::string_view log) {
     temporary_folder const folder;
@@ -89,13 +91,14 @@ inline sivid::imported_dataset import_serial(std::string_view mapping, std::stri
 }
 
 /// The message of the input_error that the import ends with.
-inline std::string refusal(std::string_view mapping, std::string_view file) {
+inline std::string refusal(std::string_view mapping, std::string_view file,
+                           sivid::import_tools const& tools = {}) {
     temporary_folder const folder;
     folder.write("mapping.json", mapping);
     folder.write("a.csv", file);
     folder.write("a.log", file);
     try {
-        (void)import_in(folder);
+        (void)import_in(folder, tools);
     } catch (sivid::input_error const& e) {
         CHECK_FALSE(fs::exists(folder.path() / "out"));
         CHECK_FALSE(e.remedy().empty());

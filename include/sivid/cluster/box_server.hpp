@@ -2,7 +2,7 @@
 #ifndef SIVID_CLUSTER_BOX_SERVER_HPP
 #define SIVID_CLUSTER_BOX_SERVER_HPP
 
-#include <sivid/cluster/wire.hpp>
+#include <sivid/cluster/packing.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/paving/search/detail/box_batches.hpp>
 #include <sivid/paving/set_test.hpp>
@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,10 +21,39 @@
 
 namespace sivid::cluster {
 
-/// Requests about boxes.
-enum class box_request : std::uint64_t {
-    learn, ///< of boxes together, which become a lesson
-    judge  ///< boxes by what was learnt of boxes around them
+/// Boxes that are learnt of together, by the number of the lesson.
+struct box_lesson {
+    std::uint64_t number = 0;
+    std::vector<box> boxes;
+
+    template <class Archive>
+    void serialize(Archive& a, unsigned) {
+        a& number& boxes;
+    }
+};
+
+/// A box, to be judged by what was learnt at a place of a lesson around it.
+struct box_question {
+    std::uint64_t lesson = 0, place = 0;
+    box about;
+
+    template <class Archive>
+    void serialize(Archive& a, unsigned) {
+        a& lesson& place& about;
+    }
+};
+
+/// What is asked of a box_server, in this order.
+struct box_request {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> forgotten; ///< lessons and places
+    std::vector<box_lesson> lessons;
+    bool tell = false; ///< what is learnt; else the boxes are judged
+    std::vector<box_question> questions;
+
+    template <class Archive>
+    void serialize(Archive& a, unsigned) {
+        a& forgotten& lessons& tell& questions;
+    }
 };
 
 /// Answers about boxes by a test, and keeps what it learns: knowledge (megabytes) never travels.
@@ -37,15 +67,32 @@ public:
     /// @param prior  whose dimension all boxes have
     box_server(Test& test, box prior) : test_(&test), prior_(std::move(prior)) {}
 
-    /// @throws wire_error  for a request that cannot be read
+    /// @returns  packed: if it is to tell what is learnt, for each box the assessment, whether
+    /// there
+    ///           is knowledge, and its bytes; else the seconds that judging took, and for each
+    ///           question the assessment and whether there is knowledge
+    /// @throws std::invalid_argument  for a request that no coordinator makes
     /// @throws unsound_environment  where this thread rounds otherwise
-    [[nodiscard]] std::string operator()(std::string_view request) {
+    [[nodiscard]] std::string operator()(std::string_view bytes) {
         require_sound_environment();
-        wire_reader in(request);
-        forget(in);
-        auto const what =
-            static_cast<box_request>(in.below(static_cast<std::uint64_t>(box_request::judge) + 1));
-        return what == box_request::learn ? learn(in) : judge(in);
+        auto const request = unpacker(bytes).take<box_request>();
+        for (auto const& [number, place] : request.forgotten) forget(number, place);
+        packer out;
+        for (auto const& l : request.lessons) {
+            for (auto const& a : learnt(l)) {
+                if (!request.tell) continue;
+                std::uint64_t const size =
+                    a.knowledge ? paving_detail::bytes_of(*test_, prior_, *a.knowledge) : 0;
+                out.put(a).put(a.knowledge != nullptr).put(size);
+            }
+        }
+        if (request.tell) return out.take();
+        stopwatch const clock;
+        std::vector<assessment<knowledge>> judged;
+        for (auto const& q : request.questions) judged.push_back(judge(q));
+        out.put(clock.spent());
+        for (auto const& a : judged) out.put(a).put(a.knowledge != nullptr);
+        return out.take();
     }
 
     /// Lessons of which something is kept.
@@ -57,71 +104,39 @@ private:
         std::size_t kept = 0; ///< of them
     };
 
-    void forget(wire_reader& in) {
-        for (auto n = in.count(16); n > 0; --n) {
-            auto const which = lessons_.find(in.number());
-            auto const place = in.number();
-            if (which == lessons_.end()) continue;
-            auto& l = which->second;
-            wire_reader::require(place < l.found.size(), "knowledge of nowhere");
-            if (!l.found[place]) continue;
-            l.found[place] = nullptr;
-            if (--l.kept == 0) lessons_.erase(which);
-        }
+    static void require(bool holds, char const* what) {
+        if (!holds) throw std::invalid_argument(std::string{"a request for boxes: "} + what);
     }
-    [[nodiscard]] std::vector<box> boxes(wire_reader& in) const {
-        std::vector<box> list(in.count(8));
-        for (auto& x : list) {
-            x = in.sides(prior_.size());
-            wire_reader::require(subset(x, prior_), "a box outside the prior");
-        }
-        return list;
+    void forget(std::uint64_t number, std::uint64_t place) {
+        auto const which = lessons_.find(number);
+        if (which == lessons_.end()) return;
+        auto& l = which->second;
+        require(place < l.found.size(), "knowledge of nowhere");
+        if (!l.found[place]) return;
+        l.found[place] = nullptr;
+        if (--l.kept == 0) lessons_.erase(which);
     }
-    [[nodiscard]] std::vector<assessment<knowledge>> learnt(std::uint64_t number,
-                                                            std::vector<box> const& about) {
-        auto says = test_->learn(about);
+    [[nodiscard]] std::vector<assessment<knowledge>> learnt(box_lesson const& from) {
+        for (auto const& x : from.boxes)
+            require(x.size() == prior_.size() && !is_empty(x) && subset(x, prior_),
+                    "a box outside the prior");
+        auto says = test_->learn(from.boxes);
         lesson l;
         for (auto const& a : says) {
             l.found.push_back(a.knowledge);
             l.kept += a.knowledge ? 1 : 0;
         }
-        if (l.kept > 0) lessons_[number] = std::move(l);
+        if (l.kept > 0) lessons_[from.number] = std::move(l);
         return says;
     }
-
-    [[nodiscard]] std::string learn(wire_reader& in) {
-        auto const number = in.number();
-        auto const about = boxes(in);
-        in.finish();
-        wire_writer out;
-        for (auto const& a : learnt(number, about)) {
-            out.put(a).put(a.knowledge != nullptr);
-            out.put(std::uint64_t{
-                a.knowledge ? paving_detail::bytes_of(*test_, prior_, *a.knowledge) : 0});
-        }
-        return out.take();
-    }
-    [[nodiscard]] std::string judge(wire_reader& in) {
-        wire_writer out;
-        for (auto lists = in.count(8); lists > 0; --lists) { // lessons that are to be had here, too
-            auto const number = in.number();
-            auto const about = boxes(in);
-            static_cast<void>(learnt(number, about));
-        }
-        auto const count = in.count(24);
-        stopwatch const clock;
-        for (auto n = count; n > 0; --n) {
-            auto const which = lessons_.find(in.number());
-            auto const place = in.number();
-            auto const x = in.sides(prior_.size());
-            wire_reader::require(which != lessons_.end() && place < which->second.found.size() &&
-                                     which->second.found[place],
-                                 "knowledge that nobody has learnt here");
-            auto const a = test_->judge(x, which->second.found[place]);
-            out.put(a).put(a.knowledge != nullptr);
-        }
-        in.finish();
-        return wire_writer().put(clock.spent()).take() + out.take();
+    [[nodiscard]] assessment<knowledge> judge(box_question const& q) {
+        require(q.about.size() == prior_.size() && !is_empty(q.about),
+                "a box of another dimension");
+        auto const which = lessons_.find(q.lesson);
+        require(which != lessons_.end() && q.place < which->second.found.size() &&
+                    which->second.found[q.place],
+                "knowledge that nobody has learnt here");
+        return test_->judge(q.about, which->second.found[q.place]);
     }
 
     Test* test_;

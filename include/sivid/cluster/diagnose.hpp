@@ -6,50 +6,48 @@
 #include <sivid/approximate/candidate/screened.hpp>
 #include <sivid/approximate/candidate/screening.hpp>
 #include <sivid/cluster/identity.hpp>
+#include <sivid/cluster/packing.hpp>
 #include <sivid/cluster/transport.hpp>
-#include <sivid/cluster/wire.hpp>
 #include <sivid/cluster/worker.hpp>
 #include <sivid/cluster/worker_pool.hpp>
-#include <sivid/cluster/working_coordinator.hpp>
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/problem.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+namespace boost::serialization {
+
+template <class Archive>
+void serialize(Archive& a, sivid::approximate_fit& fit, unsigned) {
+    a& fit.parameters& fit.inflation& fit.squares& fit.starts& fit.residuals;
+}
+
+} // namespace boost::serialization
+
 namespace sivid::cluster {
 
 namespace diagnose_detail {
 
-inline void put(wire_writer& out, approximate_fit const& fit) {
-    out.put(fit.parameters).put(fit.inflation).put(fit.squares);
-    for (auto const* lists : {&fit.starts, &fit.residuals}) {
-        out.put(std::uint64_t{lists->size()});
-        for (auto const& x : *lists) out.put(x);
-    }
-}
-[[nodiscard]] inline approximate_fit take_fit(wire_reader& in) {
+/// A fit that is wanted: of these effects, from that of a part of them, if there is one.
+struct fit_request {
+    std::vector<std::size_t> effects;
+    bool from_part = false;
+    std::vector<std::size_t> part;
     approximate_fit fit;
-    fit.parameters = in.reals();
-    fit.inflation = in.real();
-    fit.squares = in.real();
-    for (auto* lists : {&fit.starts, &fit.residuals}) {
-        lists->resize(in.count(8));
-        for (auto& x : *lists) x = in.reals();
+
+    template <class Archive>
+    void serialize(Archive& a, unsigned) {
+        a& effects& from_part& part& fit;
     }
-    return fit;
-}
-inline void put(wire_writer& out, std::vector<std::size_t> const& effects) {
-    out.put(std::uint64_t{effects.size()});
-    for (auto const e : effects) out.put(std::uint64_t{e});
-}
+};
 
 /// Fits candidates as they are asked for.
 class candidate_server {
@@ -57,26 +55,30 @@ public:
     candidate_server(identification_problem const& base, std::vector<effect> const& catalogue)
         : candidates_(base, catalogue), effects_(candidates_.catalogue().size()) {}
 
-    /// @throws wire_error
+    /// @returns  packed: the fit, and whether the candidate is silent
+    /// @throws std::invalid_argument  for effects or a fit of something else
     [[nodiscard]] std::string answer(std::string_view request,
                                      std::function<bool()> const& wanted) const {
-        wire_reader in(request);
-        wanted_fit w{take_effects(in)};
+        auto const asked = unpacker(request).take<fit_request>();
+        require_known(asked.effects);
+        require_known(asked.part);
+        wanted_fit w{asked.effects};
         std::optional<screened> part;
-        if (in.flag()) {
-            part = candidates_.posed(take_effects(in));
-            part->fit = take_fit(in);
+        if (asked.from_part) {
+            part = candidates_.posed(asked.part);
+            part->fit = asked.fit;
             require_fit_of(*part);
             w.part = &*part;
         }
-        in.finish();
         auto const made = candidates_.make(w, wanted);
-        wire_writer out;
-        put(out, made.fit);
-        return out.put(made.silent).take();
+        return packed(made.fit, made.silent);
     }
 
-    /// @throws wire_error  for a fit of something else
+private:
+    void require_known(std::vector<std::size_t> const& effects) const {
+        for (auto const e : effects)
+            if (e >= effects_) throw std::invalid_argument("an effect that no catalogue has");
+    }
     static void require_fit_of(screened const& s) {
         bool same = s.fit.parameters.size() == s.problem.prior.size() &&
                     s.fit.starts.size() == s.problem.experiments.size() &&
@@ -86,14 +88,7 @@ public:
             same = s.fit.starts[e].size() == x.initial.size() &&
                    s.fit.residuals[e].size() == x.measurements.size();
         }
-        wire_reader::require(same, "a fit of another problem");
-    }
-
-private:
-    [[nodiscard]] std::vector<std::size_t> take_effects(wire_reader& in) const {
-        std::vector<std::size_t> effects(in.count(8));
-        for (auto& e : effects) e = static_cast<std::size_t>(in.below(effects_));
-        return effects;
+        if (!same) throw std::invalid_argument("a fit of another problem");
     }
 
     screening candidates_;
@@ -135,14 +130,12 @@ private:
         std::vector<worker_pool::task> tasks;
         for (auto const& w : wanted) {
             tasks.push_back({[&w](std::size_t) {
-                wire_writer out;
-                put(out, w.effects);
-                out.put(w.part != nullptr);
+                fit_request r{w.effects, w.part != nullptr, {}, {}};
                 if (w.part != nullptr) {
-                    put(out, w.part->figures.effects);
-                    put(out, w.part->fit);
+                    r.part = w.part->figures.effects;
+                    r.fit = w.part->fit;
                 }
-                return out.take();
+                return packed(r);
             }});
         }
         worker_pool::manner how;
@@ -151,12 +144,11 @@ private:
         std::vector<std::optional<made_fit>> made(said.size());
         for (std::size_t k = 0; k < said.size(); ++k) {
             if (!said[k]) continue;
-            wire_reader in(said[k]->body);
+            unpacker in(said[k]->body);
             made[k].emplace();
-            made[k]->fit = take_fit(in);
-            made[k]->silent = in.flag();
+            made[k]->fit = in.take<approximate_fit>();
+            made[k]->silent = in.take<bool>();
             made[k]->cut_short = said[k]->cut_short;
-            in.finish();
         }
         return made;
     };
@@ -166,7 +158,6 @@ private:
 }
 
 /// Fits candidates for the one who diagnoses this problem, until the diagnosis is over.
-/// @throws wire_error  for a message that cannot be read
 inline void help_diagnose(transport& coordinator, identification_problem const& problem,
                           std::vector<effect> const& catalogue, std::string const& also = {}) {
     diagnose_detail::candidate_server const candidates(problem, catalogue);

@@ -6,11 +6,10 @@
 #include <sivid/cluster/box_server.hpp>
 #include <sivid/cluster/detail/delegated_test.hpp>
 #include <sivid/cluster/identity.hpp>
+#include <sivid/cluster/packing.hpp>
 #include <sivid/cluster/transport.hpp>
-#include <sivid/cluster/wire.hpp>
 #include <sivid/cluster/worker.hpp>
 #include <sivid/cluster/worker_pool.hpp>
-#include <sivid/cluster/working_coordinator.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
@@ -21,11 +20,11 @@
 #include <sivid/paving/products/dependence.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace sivid::cluster {
 
@@ -41,26 +40,38 @@ template <batch_set_test Test>
 
 namespace identify_detail {
 
-/// What a worker has to know of a search: budgets of outliers, whose it is, the fit, what windows
-/// left.
-[[nodiscard]] inline std::string about(identification_problem const& problem, identity const& who,
-                                       std::optional<approximate_fit> const& fit,
-                                       std::optional<window_contraction> const& windows) {
-    wire_writer out;
-    out.put(std::uint64_t{problem.experiments.size()});
-    for (auto const& e : problem.experiments) out.put(std::uint64_t{e.outliers});
-    put(out, who);
-    out.put(fit.has_value());
+/// What a worker has to know of a search.
+struct search_setting {
+    std::vector<std::size_t> outliers; ///< that experiments may have
+    bool fitted = false;
+    std::vector<double> fit;
+    std::vector<std::vector<double>> fitted_starts;
+    bool windowed = false; ///< windows were contracted; what they left
+    box rest;
+    std::vector<box> starts;
+
+    template <class Archive>
+    void serialize(Archive& a, unsigned) {
+        a& outliers& fitted& fit& fitted_starts& windowed& rest& starts;
+    }
+};
+
+[[nodiscard]] inline search_setting setting_of(identification_problem const& problem,
+                                               std::optional<approximate_fit> const& fit,
+                                               std::optional<window_contraction> const& windows) {
+    search_setting s;
+    for (auto const& e : problem.experiments) s.outliers.push_back(e.outliers);
+    s.fitted = fit.has_value();
     if (fit) {
-        out.put(fit->parameters);
-        for (auto const& x : fit->starts) out.put(x);
+        s.fit = fit->parameters;
+        s.fitted_starts = fit->starts;
     }
-    out.put(windows.has_value());
+    s.windowed = windows.has_value();
     if (windows) {
-        out.put(windows->rest);
-        for (auto const& x : windows->starts) out.put(x);
+        s.rest = windows->rest;
+        s.starts = windows->starts;
     }
-    return out.take();
+    return s;
 }
 
 [[nodiscard]] inline identity identity_of(identification_problem const& problem,
@@ -76,35 +87,31 @@ public:
     search_server(identification_problem problem, identify_options options, std::string also)
         : problem_(std::move(problem)), options_(std::move(options)), also_(std::move(also)) {}
 
-    /// Makes the test as `about` says. @throws wire_error
+    /// Makes the test as `about` says.
     [[nodiscard]] identity take_up(std::string_view about) {
-        wire_reader in(about);
-        auto const experiments = problem_.experiments.size();
-        wire_reader::require(in.count(8) == experiments, "it is of other experiments");
-        for (auto& e : problem_.experiments) e.outliers = static_cast<std::size_t>(in.number());
         auto who = identity_of(problem_, options_, also_);
+        unpacker in(about);
         // Of another problem nothing else can be read; the coordinator will refuse this one.
-        if (take_identity(in).differing(who) != nullptr) return who;
+        if (in.take<identity>().differing(who) != nullptr) return who;
+        auto const setting = in.take<search_setting>();
+        for (std::size_t e = 0; e < problem_.experiments.size(); ++e)
+            problem_.experiments[e].outliers = setting.outliers.at(e);
         working_ = paving_detail::as_searched(problem_, options_.algorithm);
         search_.emplace(working_, dependence_of(working_), options_);
         std::optional<approximate_fit> fit;
-        if (in.flag()) {
+        if (setting.fitted) {
             fit.emplace();
-            fit->parameters = in.reals();
-            for (std::size_t e = 0; e < experiments; ++e) fit->starts.push_back(in.reals());
+            fit->parameters = setting.fit;
+            fit->starts = setting.fitted_starts;
         }
         std::optional<window_contraction> windows;
-        auto const& prior = search_->posed().prior;
-        if (in.flag()) {
+        if (setting.windowed) {
             windows.emplace();
-            windows->rest = in.sides(prior.size());
-            for (auto const& e : problem_.experiments) {
-                windows->starts.push_back(in.sides(e.initial.size()));
-            }
+            windows->rest = setting.rest;
+            windows->starts = setting.starts;
         }
-        in.finish();
         search_->prepare(fit, windows);
-        boxes_.emplace(search_->test(), prior);
+        boxes_.emplace(search_->test(), search_->posed().prior);
         return who;
     }
     [[nodiscard]] std::string answer(std::string_view request) { return (*boxes_)(request); }
@@ -128,7 +135,6 @@ private:
 /// @param also    what else must be the same there: the digest of a data set, say
 /// @param spent   receives what handing out took, if given
 /// @throws worker_mismatch       when a worker runs another program, or has another problem
-/// @throws wire_error          for a message that cannot be read
 /// @throws std::runtime_error  for what a worker reports
 /// @throws what `sivid::identify` throws; the others are let go in any case
 [[nodiscard]] inline identification identify(transport& others,
@@ -144,7 +150,7 @@ private:
         if (windows && windows->empty()) return sivid::invert(test, prior, search);
         box_server<feasibility_test> boxes(test, prior);
         working_coordinator all(
-            others, identify_detail::about(problem, mine, fit, windows), mine,
+            others, packed(mine, identify_detail::setting_of(problem, fit, windows)), mine,
             [&boxes](worker&, std::string_view request) { return boxes(request); });
         idle.work_has_come();
         auto found = cluster::invert(all.helpers(), test, prior, search);
@@ -155,7 +161,6 @@ private:
 }
 
 /// Works for the one who identifies this problem, until the search is over.
-/// @throws wire_error  for a message that cannot be read
 inline void help_identify(transport& coordinator, identification_problem const& problem,
                           identify_options options, std::string const& also = {}) {
     worker self(coordinator, identity_of_program());

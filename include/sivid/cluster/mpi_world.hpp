@@ -9,7 +9,6 @@
 #include <deque>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -17,6 +16,8 @@
 #include <boost/mpi/environment.hpp>
 #include <boost/mpi/request.hpp>
 #include <boost/mpi/status.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
 
 namespace sivid::cluster {
 
@@ -30,30 +31,22 @@ class mpi_world {
     public:
         explicit mail(boost::mpi::communicator const& ranks) : ranks_(ranks) {}
         ~mail() override {
-            for (auto& s : sent_) s.done.wait();
+            for (auto& s : sent_) s.wait();
         }
         [[nodiscard]] std::size_t others() const override {
             return ranks_.rank() == 0 ? static_cast<std::size_t>(ranks_.size()) - 1 : 1;
         }
-        void send(std::size_t to, std::string bytes) override {
-            constexpr std::size_t most = std::size_t{1} << 30; // lengths are of type int
-            if (bytes.size() > most) throw std::length_error("a message of more than a gigabyte");
-            while (!sent_.empty() && sent_.front().done.test()) sent_.pop_front();
-            auto& s = sent_.emplace_back();
-            s.bytes = std::make_unique<std::string>(std::move(bytes));
-            s.done =
-                ranks_.isend(rank_of(to), tag, s.bytes->data(), static_cast<int>(s.bytes->size()));
+        void send(std::size_t to, message says) override {
+            while (!sent_.empty() && sent_.front().test()) sent_.pop_front();
+            sent_.push_back(ranks_.isend(rank_of(to), tag, says));
         }
         [[nodiscard]] std::optional<letter> receive() override {
             auto const arrived = ranks_.iprobe(boost::mpi::any_source, tag);
             if (!arrived) return std::nullopt;
-            auto const size = arrived->count<char>();
-            if (!size) throw std::runtime_error("a message of MPI without a length");
-            std::string bytes(static_cast<std::size_t>(*size), '\0');
-            ranks_.recv(arrived->source(), tag, bytes.data(), *size);
             auto const rank = arrived->source();
-            return letter{ranks_.rank() == 0 ? static_cast<std::size_t>(rank) - 1 : 0,
-                          std::move(bytes)};
+            letter got{ranks_.rank() == 0 ? static_cast<std::size_t>(rank) - 1 : 0, {}};
+            ranks_.recv(rank, tag, got.says);
+            return got;
         }
         [[nodiscard]] std::string name_of(std::size_t other) const override {
             return std::string{"rank "} + std::to_string(rank_of(other));
@@ -61,24 +54,19 @@ class mpi_world {
 
     private:
         static constexpr int tag = 1;
-        struct outgoing {
-            std::unique_ptr<std::string> bytes;
-            boost::mpi::request done;
-        };
         [[nodiscard]] int rank_of(std::size_t other) const {
             return ranks_.rank() == 0 ? static_cast<int>(other) + 1 : 0;
         }
 
         boost::mpi::communicator ranks_;
-        std::deque<outgoing> sent_;
+        std::deque<boost::mpi::request> sent_; ///< each holds what it sends
     };
 
 public:
     /// @throws boost::mpi::exception  when MPI cannot be had
     mpi_world(int& argc, char**& argv)
-        : environment_(argc, argv, boost::mpi::threading::funneled, false) {
-        mail_ = std::make_unique<mail>(ranks_);
-    }
+        : environment_(argc, argv, boost::mpi::threading::funneled, false),
+          mail_(std::make_unique<mail>(ranks_)) {}
 
     /// Whether mpirun, or srun with its support of MPI, has started this process: then there may be
     /// others. A program that was started alone has no need of MPI.

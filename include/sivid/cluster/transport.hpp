@@ -2,9 +2,12 @@
 #ifndef SIVID_CLUSTER_TRANSPORT_HPP
 #define SIVID_CLUSTER_TRANSPORT_HPP
 
+#include <sivid/cluster/identity.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -16,22 +19,51 @@
 
 namespace sivid::cluster {
 
+/// Between the coordinator and a worker of its pool.
+struct message {
+    enum class kind : std::uint8_t {
+        hello,   ///< to a worker: what the coordinator works on
+        welcome, ///< back: who the worker is
+        ask,     ///< a request
+        answer,  ///< to the request with that number
+        fault,   ///< back: the worker cannot go on; why
+        stop,    ///< what is asked for is no longer wanted: end it soon
+        end      ///< the service is over
+    };
+    kind what = kind::end;
+    std::uint64_t number = 0; ///< of the request
+    std::string body = {};
+    identity who = {};      ///< in a welcome
+    double seconds = 0;     ///< in an answer: of the processor that the worker took
+    bool cut_short = false; ///< in an answer: told to stop, it need not have finished
+
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t sum = sizeof what + sizeof number + body.size();
+        for (auto const& p : who.parts) sum += p.what.size() + p.value.size() + p.remedy.size();
+        return sum;
+    }
+    template <class Archive>
+    void serialize(Archive& a, unsigned) {
+        a& what& number& body& who& seconds& cut_short;
+    }
+};
+
 /// Carries messages to and from others, each of whom has a number from 0 on; what one of them sends
 /// arrives in its order. Used by one thread.
 class transport {
 public:
     struct letter {
         std::size_t from = 0;
-        std::string bytes;
+        message says;
     };
 
     virtual ~transport() = default;
     [[nodiscard]] virtual std::size_t others() const = 0;
     /// Does not wait for the other.
-    virtual void send(std::size_t to, std::string bytes) = 0;
+    virtual void send(std::size_t to, message says) = 0;
     /// What has arrived, if anything; does not wait.
     [[nodiscard]] virtual std::optional<letter> receive() = 0;
-    /// For messages: `rank 3`.
+    /// For people: `rank 3`.
     [[nodiscard]] virtual std::string name_of(std::size_t other) const = 0;
 };
 
@@ -65,9 +97,9 @@ class memory_transport {
         end(std::shared_ptr<box_of_letters> in, boxes out, std::size_t sender)
             : in_(std::move(in)), out_(std::move(out)), sender_(sender) {}
         [[nodiscard]] std::size_t others() const override { return out_.size(); }
-        void send(std::size_t to, std::string bytes) override {
+        void send(std::size_t to, message says) override {
             std::lock_guard const alone(out_[to]->mutex);
-            out_[to]->waiting.push_back({sender_, std::move(bytes)});
+            out_[to]->waiting.push_back({sender_, std::move(says)});
         }
         [[nodiscard]] std::optional<letter> receive() override {
             std::lock_guard const alone(in_->mutex);
@@ -110,10 +142,10 @@ public:
     [[nodiscard]] std::size_t others() const override {
         return first_->others() + second_->others();
     }
-    void send(std::size_t to, std::string bytes) override {
+    void send(std::size_t to, message says) override {
         auto const n = first_->others();
-        if (to < n) return first_->send(to, std::move(bytes));
-        second_->send(to - n, std::move(bytes));
+        if (to < n) return first_->send(to, std::move(says));
+        second_->send(to - n, std::move(says));
     }
     [[nodiscard]] std::optional<letter> receive() override {
         if (auto got = first_->receive()) return got;

@@ -2,10 +2,8 @@
 #ifndef SIVID_CLUSTER_WORKER_HPP
 #define SIVID_CLUSTER_WORKER_HPP
 
-#include <sivid/cluster/frame.hpp>
 #include <sivid/cluster/identity.hpp>
 #include <sivid/cluster/transport.hpp>
-#include <sivid/cluster/wire.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +12,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
-#include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -53,7 +51,6 @@ public:
 
     /// Answers until the coordinator ends the service. What the service throws is reported, and
     /// nothing is answered after it.
-    /// @throws wire_error  for a message that cannot be read
     void serve(service const& work) {
         own_ = std::this_thread::get_id();
         patience rest;
@@ -67,14 +64,14 @@ public:
             rest.renew();
             auto const next = std::move(waiting_.front());
             waiting_.pop_front();
-            if (next.what == frame::kind::end) return;
-            if (next.what == frame::kind::hello) {
+            if (next.what == message::kind::end) return;
+            if (next.what == message::kind::hello) {
                 wanted_ = std::none_of(waiting_.begin(), waiting_.end(), is_stop);
                 serving = guarded([&] { welcome(work, next.body); });
-            } else if (next.what == frame::kind::ask) {
+            } else if (next.what == message::kind::ask) {
                 if (serving) serving = guarded([&] { reply(work, next); });
             } else if (!is_stop(next)) {
-                throw wire_error("a damaged message: of a kind that nobody sends to a worker");
+                throw std::logic_error("a message of a kind that nobody sends to a worker");
             }
         }
     }
@@ -82,25 +79,21 @@ public:
 private:
     using clock = std::chrono::steady_clock;
 
-    [[nodiscard]] static bool is_stop(frame const& f) { return f.what == frame::kind::stop; }
-    void send(frame const& f) const { transport_->send(0, to_bytes(f)); }
+    [[nodiscard]] static bool is_stop(message const& f) { return f.what == message::kind::stop; }
+    void send(message m) const { transport_->send(0, std::move(m)); }
 
-    void welcome(service const& work, std::string_view told) {
-        wire_reader in(told);
-        auto const about = in.text();
-        in.finish();
-        auto all = who_;
-        for (auto& p : work.take_up(about).parts) all.parts.push_back(std::move(p));
-        wire_writer out;
-        put(out, all);
-        send({frame::kind::welcome, 0, out.take()});
+    void welcome(service const& work, std::string_view about) {
+        message m{message::kind::welcome};
+        m.who = who_;
+        for (auto& p : work.take_up(about).parts) m.who.parts.push_back(std::move(p));
+        send(std::move(m));
     }
-    void reply(service const& work, frame const& asked) {
+    void reply(service const& work, message const& asked) {
         double const begin = processor_seconds();
-        auto const says = work.answer(asked.body);
-        wire_writer out;
-        out.put(processor_seconds() - begin).put(!wanted()).put(std::string_view{says});
-        send({frame::kind::answer, asked.number, out.take()});
+        message m{message::kind::answer, asked.number, work.answer(asked.body)};
+        m.seconds = processor_seconds() - begin;
+        m.cut_short = !wanted();
+        send(std::move(m));
     }
     /// Of this thread, so that a rank that shares its processor does not look slow.
     [[nodiscard]] static double processor_seconds() {
@@ -115,13 +108,13 @@ private:
             work();
             return true;
         } catch (std::exception const& e) {
-            send({frame::kind::fault, 0, e.what()});
+            send({message::kind::fault, 0, e.what()});
             return false;
         }
     }
     void take_in() const {
         while (auto letter = transport_->receive()) {
-            waiting_.push_back(frame_of(letter->bytes));
+            waiting_.push_back(std::move(letter->says));
             if (is_stop(waiting_.back())) wanted_ = false; // at once, whatever waits before it
         }
     }
@@ -132,7 +125,7 @@ private:
     // What has been asked for so far.
     mutable std::atomic<bool> wanted_ = true;
     mutable clock::time_point next_look_{};
-    mutable std::deque<frame> waiting_;
+    mutable std::deque<message> waiting_;
 };
 
 } // namespace sivid::cluster

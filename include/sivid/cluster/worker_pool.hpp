@@ -2,10 +2,9 @@
 #ifndef SIVID_CLUSTER_WORKER_POOL_HPP
 #define SIVID_CLUSTER_WORKER_POOL_HPP
 
-#include <sivid/cluster/frame.hpp>
 #include <sivid/cluster/identity.hpp>
 #include <sivid/cluster/transport.hpp>
-#include <sivid/cluster/wire.hpp>
+#include <sivid/cluster/worker.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <chrono>
@@ -18,6 +17,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -82,15 +82,13 @@ public:
     void begin(std::string_view about, identity mine) {
         expected_ = who_;
         for (auto& p : mine.parts) expected_.parts.push_back(std::move(p));
-        wire_writer out;
-        out.put(about);
-        hello_ = out.take();
+        hello_ = about;
         hail();
     }
 
     /// Has tasks done. Once `go_on` is false nothing more is handed out, workers are told to stop,
     /// and what they have by then is waited for.
-    /// @throws worker_mismatch, wire_error, std::runtime_error (a worker's fault)
+    /// @throws worker_mismatch, std::runtime_error (a worker's fault)
     [[nodiscard]] answers ask(std::vector<task> const& tasks, std::function<bool()> const& go_on,
                               manner const& how) {
         stopwatch const watch;
@@ -116,7 +114,7 @@ public:
                     sent[++number_] = k;
                     ++busy_[m];
                     ++traffic_.requests;
-                    send(m, {frame::kind::ask, number_, tasks[k].request(m)});
+                    send(m, {message::kind::ask, number_, tasks[k].request(m)});
                 }
             }
             while (auto letter = transport_->receive()) {
@@ -152,11 +150,11 @@ public:
     /// Tells all that what they work on is no longer wanted, until somebody asks for more.
     void stop() {
         stopped_ = true;
-        for (std::size_t m = 0; m < size(); ++m) send(m, {frame::kind::stop});
+        for (std::size_t m = 0; m < size(); ++m) send(m, {message::kind::stop});
     }
     /// The service is over.
     void end() {
-        for (std::size_t m = 0; m < size(); ++m) send(m, {frame::kind::end});
+        for (std::size_t m = 0; m < size(); ++m) send(m, {message::kind::end});
     }
 
 private:
@@ -165,50 +163,33 @@ private:
     void hail() {
         for (std::size_t m = 0; m < size(); ++m) {
             present_[m] = 0;
-            send(m, {frame::kind::hello, 0, hello_});
+            send(m, {message::kind::hello, 0, hello_});
         }
         stopped_ = false;
     }
-    void send(std::size_t to, frame const& f) {
-        auto bytes = to_bytes(f);
+    void send(std::size_t to, message m) {
         ++traffic_.messages;
-        traffic_.bytes_sent += bytes.size();
-        transport_->send(to, std::move(bytes));
+        traffic_.bytes_sent += m.bytes();
+        transport_->send(to, std::move(m));
     }
     /// An answer and the number of its request.
     [[nodiscard]] std::optional<std::pair<std::uint64_t, answer>>
     taken(transport::letter const& l) {
+        auto const& m = l.says;
         ++traffic_.messages;
-        traffic_.bytes_received += l.bytes.size();
+        traffic_.bytes_received += m.bytes();
         auto const name = transport_->name_of(l.from);
-        frame f;
-        try {
-            f = frame_of(l.bytes);
-            if (f.what == frame::kind::welcome) {
-                wire_reader in(f.body);
-                auto const who = take_identity(in);
-                in.finish();
-                require_same(name, who);
-                present_[l.from] = true;
-                return std::nullopt;
-            }
-            if (f.what == frame::kind::answer) {
-                wire_reader in(f.body);
-                answer a;
-                a.worker = l.from;
-                a.seconds = in.real();
-                a.cut_short = in.flag();
-                a.body = in.text();
-                in.finish();
-                if (busy_[l.from] > 0) --busy_[l.from];
-                traffic_.worked += a.seconds;
-                return std::pair{f.number, std::move(a)};
-            }
-        } catch (wire_error const& e) {
-            throw wire_error(name + ": " + e.what());
+        if (m.what == message::kind::fault) throw std::runtime_error(name + ": " + m.body);
+        if (m.what == message::kind::welcome) {
+            require_same(name, m.who);
+            present_[l.from] = true;
+            return std::nullopt;
         }
-        if (f.what == frame::kind::fault) throw std::runtime_error(name + ": " + f.body);
-        throw wire_error(name + ": a damaged message: of a kind that no worker sends");
+        if (m.what != message::kind::answer)
+            throw std::logic_error(name + ": a message of a kind that no worker sends");
+        if (busy_[l.from] > 0) --busy_[l.from];
+        traffic_.worked += m.seconds;
+        return std::pair{m.number, answer{m.body, l.from, m.seconds, m.cut_short}};
     }
     void require_same(std::string const& name, identity const& who) const {
         auto const* const p = expected_.differing(who);
@@ -229,6 +210,64 @@ private:
     std::string hello_; ///< what the work is about
     bool stopped_ = false;
     sivid::cluster::traffic traffic_;
+};
+
+/// The pool of others and of a thread of the coordinator's own, so that the processor of the one
+/// who waits works, too. Begins the work when it is made, and ends it for all with its life.
+class working_coordinator {
+public:
+    /// @param others  is referred to
+    /// @param about   what the work is about, for all
+    /// @param mine    what must be the same there
+    /// @param answer  of the own thread; may ask the worker given whether its work is wanted
+    working_coordinator(transport& others, std::string_view about, identity const& mine,
+                        std::function<std::string(worker&, std::string_view)> answer)
+        : all_(*inside_.of_first, others), who_(identity_of_program()), pool_(all_, who_) {
+        pool_.begin(about, mine);
+        thread_ = std::thread([this, mine, answer = std::move(answer)] {
+            worker self(*inside_.of_workers[0], who_);
+            self.serve({[&mine](std::string_view) { return mine; },
+                        [&](std::string_view request) { return answer(self, request); }});
+        });
+    }
+    working_coordinator(working_coordinator const&) = delete;
+    working_coordinator& operator=(working_coordinator const&) = delete;
+    ~working_coordinator() {
+        pool_.stop();
+        pool_.end();
+        thread_.join();
+    }
+
+    [[nodiscard]] worker_pool& helpers() { return pool_; }
+
+private:
+    memory_transport inside_{1};
+    joined_transport all_;
+    identity who_;
+    worker_pool pool_;
+    std::thread thread_;
+};
+
+/// Lets go those who wait for work that never came.
+inline void release(transport& others) {
+    for (std::size_t m = 0; m < others.others(); ++m) others.send(m, {message::kind::end});
+}
+
+/// Lets them go with the end of its life, whatever ends it, unless work has come meanwhile: then a
+/// `working_coordinator` does.
+class released_at_end {
+public:
+    /// @param others  is referred to
+    explicit released_at_end(transport& others) : others_(&others) {}
+    released_at_end(released_at_end const&) = delete;
+    released_at_end& operator=(released_at_end const&) = delete;
+    ~released_at_end() {
+        if (others_ != nullptr) release(*others_);
+    }
+    void work_has_come() { others_ = nullptr; }
+
+private:
+    transport* others_;
 };
 
 } // namespace sivid::cluster

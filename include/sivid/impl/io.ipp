@@ -3,7 +3,6 @@
 #define SIVID_IMPL_IO_IPP
 
 #include <sivid/io/dataset/impl/dataset_digest.ipp>
-#include <sivid/io/dataset/impl/model_names.ipp>
 #include <sivid/io/impl/checkpoint_reader.ipp>
 #include <sivid/io/impl/dataset.ipp>
 #include <sivid/io/impl/decision_json.ipp>
@@ -13,7 +12,6 @@
 #include <sivid/io/impl/identification_csv.ipp>
 #include <sivid/io/impl/identification_json.ipp>
 #include <sivid/io/impl/identification_reader.ipp>
-#include <sivid/io/impl/input_error.ipp>
 #include <sivid/io/impl/problem_from_dataset.ipp>
 #include <sivid/io/impl/scenario.ipp>
 #include <sivid/io/result/impl/certificates_csv.ipp>
@@ -21,6 +19,5 @@
 #include <sivid/io/result/impl/same_problem.ipp>
 #include <sivid/io/text/impl/exact_decimal.ipp>
 #include <sivid/io/text/impl/json_document.ipp>
-#include <sivid/io/text/impl/text_file.ipp>
 
 #endif

@@ -2,7 +2,6 @@
 #ifndef SIVID_IO_INPUT_ERROR_HPP
 #define SIVID_IO_INPUT_ERROR_HPP
 
-#include <sivid/compiled.hpp>
 #include <sivid/io/text/printable_text.hpp>
 
 #include <concepts>
@@ -60,12 +59,25 @@ private:
 };
 
 /// "'text'" for messages: shortened, and with control characters made visible.
-[[nodiscard]] SIVID_DECL std::string in_quotes(std::string_view text);
+[[nodiscard]] inline std::string in_quotes(std::string_view text) {
+    return "'" + printable_text(text, 40) + "'";
+}
+
+inline std::string input_error::message(input_place const& place, std::string const& problem,
+                                        std::string const& remedy) {
+    std::string text = printable_path(place.file);
+    if (place.is_json) {
+        text += text_of(": ", place.pointer.empty() ? std::string{"(document)"}
+                                                    : printable_text(place.pointer, 120));
+    }
+    if (place.line > 0) text += text_of(": line ", std::to_string(place.line));
+    if (place.column > 0) text += text_of(", column ", std::to_string(place.column));
+    if (!place.heading.empty()) text += " (" + printable_text(place.heading, 60) + ")";
+    text += ": " + printable_text(problem, 1000);
+    if (!remedy.empty()) text += "; " + printable_text(remedy, 1000);
+    return text;
+}
 
 } // namespace sivid
-
-#ifndef SIVID_COMPILED
-#include <sivid/io/impl/input_error.ipp>
-#endif
 
 #endif // SIVID_IO_INPUT_ERROR_HPP

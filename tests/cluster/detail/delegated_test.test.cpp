@@ -39,11 +39,9 @@ struct ring_workers {
 
 /// All that a search found, as text; what it took is left out.
 std::string text_of(inversion const& found) {
-    wire_writer out;
-    for (auto const& b : found.paving.boxes())
-        out.put(b.set).put(static_cast<std::uint64_t>(b.verdict));
-    out.put(static_cast<std::uint64_t>(found.reason)).put(std::uint64_t{found.tested});
-    out.put(std::uint64_t{found.cost}).put(found.proof);
+    packer out;
+    for (auto const& b : found.paving.boxes()) out.put(b.set).put(b.verdict);
+    out.put(found.reason).put(found.tested).put(found.cost).put(found.proof);
     return out.take();
 }
 std::string text_of(search_state state) {

@@ -39,6 +39,41 @@ TEST_CASE("decimals are scaled exactly") {
     CHECK(r.protocol.scenarios.at(0).file == "a.csv");
 }
 
+TEST_CASE("fixed values and stated starts are read in the units that the mapping states") {
+    auto const with = [](std::string const& g, std::string const& h) {
+        auto const text = replaced(csv_mapping, "\"g\": 9.81", "\"g\": " + g);
+        return replaced(text, "\"h\": [0, 1]", "\"h\": " + h);
+    };
+    auto const stated =
+        with(R"({"value": 981, "unit": "cm/s^2"})", R"({"range": [10, 100], "unit": "cm"})");
+    temporary_folder const folder;
+    folder.write("mapping.json", stated);
+    folder.write("a.csv", small_table);
+    auto names = import_in(folder).names;
+    for (auto& c : names.constants)
+        if (c.name == "g") c.unit = "m/s^2";
+    for (auto& x : names.states) x.unit = "m";
+    auto const data = read_dataset(folder.path() / "out", names);
+    CHECK(contains(data.fixed.at(0).value, 9.81));
+    CHECK(width(data.fixed.at(0).value) < 1e-14);
+    auto const& h = data.scenarios.at(0).initial.at(0);
+    CHECK(h.stated->lower == dec("0.1"));
+    CHECK(h.stated->upper == dec("1"));
+    names.states.at(0).unit = "s";
+    CHECK_THROWS_WITH(read_dataset(folder.path() / "out", names),
+                      ContainsSubstring("'cm' is the unit of the state 'h'"));
+    // Without a unit the long forms mean the short ones.
+    auto const plain = import_csv(with(R"({"value": 9.81})", R"({"range": [0, 1]})"), small_table);
+    CHECK(plain.data.fixed.at(0).stated == dec("9.81"));
+    CHECK(plain.data.scenarios.at(0).initial.at(0).stated->upper == dec("1"));
+    CHECK_THAT(refusal(with(R"({"value": 981, "unit": "hours of sleep"})", "[0, 1]"), small_table),
+               ContainsSubstring("mapping.json: /fixed/g/unit: 'hours of sleep' is no unit"));
+    CHECK_THAT(refusal(with("9.81", R"({"range": [0, 1], "unit": "hours of sleep"})"), small_table),
+               ContainsSubstring("/scenarios/0/initial/h/unit: 'hours of sleep' is no unit"));
+    CHECK_THAT(refusal(with("9.81", R"({"range": [0, 1], "rate": 2})"), small_table),
+               ContainsSubstring("unknown key 'rate'"));
+}
+
 TEST_CASE(
     "an input that steps between two times that are one double, or in one tick, has stepped") {
     // u = 0 until 1.01 s, then 5; what is measured is the level + u.

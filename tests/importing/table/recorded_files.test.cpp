@@ -2,7 +2,6 @@
 #include <sivid/importing/table/recorded_files.hpp>
 
 #include "io/import_support.hpp"
-#include "io/matlab_support.hpp"
 
 using namespace sivid;
 using namespace io_support;
@@ -61,11 +60,9 @@ TEST_CASE("the notes of a log that several scenarios read are told for each") {
     CHECK(noted(r.protocol, "not as many cells") == std::vector<std::size_t>{1, 1});
 }
 
-TEST_CASE("compressed MATLAB files go through the program's function") {
+TEST_CASE("MATLAB files go through the program's function, or are refused with a way out") {
     temporary_folder const folder;
-    matlab_writer const w;
-    auto const inner = w.doubles("y", 1, 3, {1, 2, 4});
-    folder.write("a.csv", w.file(w.element(15, "packed", false)));
+    folder.write("a.csv", "whatever");
     folder.write("mapping.json",
                  R"({ "format": "sivid-mapping-1", "id": "i", "model": "m",
       "parameters": { "k": { "prior": [0, 1] } }, "max_outlier_fraction": 0,
@@ -73,9 +70,18 @@ TEST_CASE("compressed MATLAB files go through the program's function") {
                        "time": { "sample_time": 0.5 },
                        "channels": { "h": { "column": "y", "error": 0.1 } } } ] })");
     auto const mapping = read_import_mapping(folder.path() / "mapping.json");
-    CHECK_THROWS_AS(import_dataset(mapping), input_error);
+    try {
+        (void)import_dataset(mapping);
+        FAIL("imported without a reader");
+    } catch (input_error const& e) {
+        CHECK_THAT(e.what(),
+                   ContainsSubstring("a.csv: a MATLAB file") && ContainsSubstring("libmatio-dev"));
+    }
     import_tools tools;
-    tools.inflate = [&](std::string_view, std::size_t) { return std::optional{inner}; };
+    tools.read_matlab = [](fs::path const& file) {
+        return matlab_file{file.string(),
+                           {{"y", "double 1x3", false, 1, 3, std::vector<double>{1, 2, 4}}}};
+    };
     auto const r = import_dataset(mapping, tools);
     CHECK(r.data.scenarios.at(0).duration == 1);
     CHECK(r.data.scenarios.at(0).stated.at(2).value == dec("4"));

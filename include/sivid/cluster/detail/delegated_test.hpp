@@ -3,7 +3,7 @@
 #define SIVID_CLUSTER_DETAIL_DELEGATED_TEST_HPP
 
 #include <sivid/cluster/box_server.hpp>
-#include <sivid/cluster/wire.hpp>
+#include <sivid/cluster/packing.hpp>
 #include <sivid/cluster/worker_pool.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/space/box.hpp>
@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +39,7 @@ class delegated_test {
     struct registry {
         std::map<std::uint64_t, lesson> lessons;
         /// By worker: what it need not keep any longer.
-        std::vector<std::vector<std::pair<std::uint64_t, std::size_t>>> forgotten;
+        std::vector<std::vector<std::pair<std::uint64_t, std::uint64_t>>> forgotten;
 
         void clear(typename std::map<std::uint64_t, lesson>::iterator l) {
             auto const& used = l->second.used;
@@ -113,11 +114,7 @@ public:
         next_ += sets.size();
         for (std::size_t k = 0; k < sets.size(); ++k) {
             tasks.push_back({[this, &sets, k, first](std::size_t worker) {
-                wire_writer out;
-                put_forgotten(out, worker);
-                out.put(static_cast<std::uint64_t>(box_request::learn));
-                put_boxes(out, first + k, sets[k]);
-                return out.take();
+                return packed(box_request{forgotten_by(worker), {{first + k, sets[k]}}, true, {}});
             }});
         }
         auto const said = asked(tasks);
@@ -151,15 +148,14 @@ public:
         auto const said = asked(tasks);
         for (std::size_t k = 0; k < tasks.size(); ++k) {
             if (!said[k]) continue;
-            wire_reader in(said[k]->body);
+            unpacker in(said[k]->body);
             auto const& mine = whose[k]->questions;
-            double const took = in.real() / static_cast<double>(mine.size());
+            double const took = in.take<double>() / static_cast<double>(mine.size());
             judging_ = judging_ > 0 ? 0.9 * judging_ + 0.1 * took : took;
             for (auto const q : mine) {
-                result[q] = in.answer<knowledge>(*questions[q].set);
-                if (in.flag()) result[q].knowledge = questions[q].known;
+                result[q] = answer_about(*questions[q].set, in);
+                if (in.take<bool>()) result[q].knowledge = questions[q].known;
             }
-            in.finish();
             for (auto const number : whose[k]->lessons) forget_rest(number, said[k]->worker);
         }
         return result;
@@ -188,21 +184,21 @@ private:
             if (used[place] == 0) all_->forgotten[worker].emplace_back(number, place);
         }
     }
-    void put_forgotten(wire_writer& out, std::size_t worker) {
-        auto& list = all_->forgotten[worker];
-        out.put(std::uint64_t{list.size()});
-        for (auto const& [number, place] : list) out.put(number).put(std::uint64_t{place});
-        list.clear();
+    [[nodiscard]] std::vector<std::pair<std::uint64_t, std::uint64_t>>
+    forgotten_by(std::size_t worker) {
+        return std::exchange(all_->forgotten[worker], {});
     }
-    static void put_boxes(wire_writer& out, std::uint64_t number, std::vector<box> const& list) {
-        out.put(number).put(std::uint64_t{list.size()});
-        for (auto const& x : list) out.put(x);
+    [[nodiscard]] static answer answer_about(box const& x, unpacker& in) {
+        auto a = in.take<answer>();
+        if (a.rest.size() != x.size() || !(is_empty(a.rest) || subset(a.rest, x)))
+            throw std::runtime_error("an answer about a box: what is left of it is no part of it");
+        return a;
     }
 
     [[nodiscard]] std::vector<answer> read_lesson(worker_pool::answer const& said,
                                                   std::uint64_t number,
                                                   std::vector<box> const& about) {
-        wire_reader in(said.body);
+        unpacker in(said.body);
         std::vector<answer> result;
         auto& l = all_->lessons[number];
         l.boxes = about;
@@ -211,22 +207,21 @@ private:
         l.seconds = said.seconds;
         l.used.assign(about.size(), 0);
         for (auto const& x : about) {
-            result.push_back(in.answer<knowledge>(x));
-            bool const any = in.flag();
-            auto const bytes = static_cast<std::size_t>(in.number());
-            if (!any) continue;
-            wire_reader::require(bytes >= frame_bytes_of(x), "knowledge that takes no room");
-            result.back().knowledge =
-                std::make_shared<knowledge const>(all_, number, result.size() - 1, bytes);
+            result.push_back(answer_about(x, in));
+            bool const any = in.take<bool>();
+            auto const bytes = static_cast<std::size_t>(in.take<std::uint64_t>());
+            frame_bytes_of(x);
+            if (any)
+                result.back().knowledge =
+                    std::make_shared<knowledge const>(all_, number, result.size() - 1, bytes);
         }
-        in.finish();
         all_->clear(all_->lessons.find(number));
         return result;
     }
     /// What `paving_detail::bytes_of` counts beside the test's own bytes.
-    [[nodiscard]] std::size_t frame_bytes_of(box const& x) {
-        return frame_bytes_ = sizeof(paving_detail::learnt<knowledge>) + sizeof(box) +
-                              x.size() * sizeof(interval);
+    void frame_bytes_of(box const& x) {
+        frame_bytes_ =
+            sizeof(paving_detail::learnt<knowledge>) + sizeof(box) + x.size() * sizeof(interval);
     }
 
     /// Says who judges what. Boxes that nothing is known of are blind: nobody is asked.
@@ -261,17 +256,13 @@ private:
     }
     [[nodiscard]] std::string request(std::vector<posed_question<knowledge>> const& questions,
                                       share const& of, std::size_t worker) {
-        wire_writer out;
-        put_forgotten(out, worker);
-        out.put(static_cast<std::uint64_t>(box_request::judge));
-        out.put(std::uint64_t{of.lessons.size()});
-        for (auto const l : of.lessons) put_boxes(out, l, all_->lessons.at(l).boxes);
-        out.put(std::uint64_t{of.questions.size()});
+        box_request r{forgotten_by(worker), {}, false, {}};
+        for (auto const l : of.lessons) r.lessons.push_back({l, all_->lessons.at(l).boxes});
         for (auto const q : of.questions) {
             auto const& known = *questions[q].known;
-            out.put(known.number).put(std::uint64_t{known.place}).put(*questions[q].set);
+            r.questions.push_back({known.number, known.place, *questions[q].set});
         }
-        return out.take();
+        return packed(r);
     }
 
     worker_pool* pool_;

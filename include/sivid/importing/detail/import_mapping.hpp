@@ -139,6 +139,7 @@ struct mapped_start {
     std::string name;
     kind from = kind::stated;
     stated_range range;
+    std::string unit; ///< of a stated range; empty: the model's
     bool bounded = true;
     std::string channel;
     input_place place;
@@ -176,10 +177,10 @@ struct scenario_mapping {
     std::size_t thin = 1; ///< each so-many-th reading of a channel is kept
     input_place place;
 
-    /// The unit of a start that readings show, that of their channel; empty: the model's, or not
-    /// stated.
+    /// The unit of a start: the stated one, or that of the channel whose readings show it; empty:
+    /// the model's, or not stated.
     [[nodiscard]] std::string unit_of(mapped_start const& start) const {
-        if (start.from == mapped_start::kind::stated) return {};
+        if (start.from == mapped_start::kind::stated) return start.unit;
         auto const q = std::find_if(channels.begin(), channels.end(),
                                     [&](auto const& c) { return c.name == start.channel; });
         if (q == channels.end() || q->unit.empty()) return {};
@@ -197,6 +198,7 @@ struct import_mapping {
         std::string name;
         exact_decimal value;
         interval enclosure;
+        std::string unit{}; ///< empty: the model's
     };
     std::filesystem::path file;
     std::string id, model;
@@ -219,7 +221,7 @@ struct import_mapping {
                 list[*known].unit = unit;
         };
         for (auto const& p : parameters) add(result.constants, p.name, p.unit);
-        for (auto const& f : fixed) add(result.constants, f.name, "");
+        for (auto const& f : fixed) add(result.constants, f.name, f.unit);
         for (auto const& s : scenarios) {
             for (auto const& q : s.inputs) add(result.inputs, q.name, q.unit);
             for (auto const& q : s.channels) add(result.channels, q.name, q.unit);

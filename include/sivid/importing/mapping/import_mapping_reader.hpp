@@ -76,8 +76,13 @@ private:
                 if (p.name == fixed->name_of(i))
                     entry.fail(in_quotes(p.name) + " is fixed and a parameter",
                                "keep one of the two");
-            auto const value = entry.number();
-            result.fixed.push_back({fixed->name_of(i), value, *enclose(value)});
+            bool const plain = entry.type() != json_value::kind::object;
+            if (!plain) entry.allow_only({"value", "unit"});
+            auto const value = (plain ? entry : entry.at("value")).number();
+            auto const* unit = plain ? nullptr : entry.find("unit");
+            if (unit != nullptr) (void)read_unit(*unit);
+            result.fixed.push_back(
+                {fixed->name_of(i), value, *enclose(value), unit ? unit->any_string() : ""});
         }
     }
 

@@ -50,7 +50,7 @@ public:
                 {*index_of(result_.names.constants, p.name), p.name, p.unit, p.prior});
         for (auto const& f : mapping_.fixed)
             data.fixed.push_back(
-                {*index_of(result_.names.constants, f.name), f.value, f.enclosure});
+                {*index_of(result_.names.constants, f.name), f.value, f.enclosure, f.unit});
         data.max_outlier_fraction = mapping_.max_outlier_fraction;
         data.effects = mapping_.effects;
         for (auto const& s : open_) data.scenarios.push_back(closed(s));

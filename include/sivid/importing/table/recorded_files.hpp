@@ -5,6 +5,7 @@
 #include <sivid/importing/table/detail/matlab_table.hpp>
 #include <sivid/importing/table/detail/recorded_table.hpp>
 #include <sivid/importing/table/detail/serial_log.hpp>
+#include <sivid/io/text/text_file.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -19,7 +20,8 @@ namespace sivid {
 
 /// How an import gets at what is in files.
 struct import_tools {
-    inflate_function inflate; ///< for compressed MATLAB files
+    /// Reads MATLAB files: `read_matlab` (matlab_reader.hpp), where there is libmatio.
+    std::function<matlab_file(std::filesystem::path const&)> read_matlab = nullptr;
     std::function<std::string(std::filesystem::path const&)> read = read_text;
 };
 
@@ -51,12 +53,16 @@ public:
             if (same(*r.by, s)) return r;
         recorded_stretches result{&s, {}, {}, 0};
         import_protocol protocol;
-        auto text = tools_.read(s.file);
         if (s.form.from == source_form::kind::matlab) {
-            matlab_file const file{s.file.string(), std::move(text), tools_.inflate};
-            result.stretches.push_back(read_matlab_table(s, file, protocol));
+            if (!tools_.read_matlab)
+                throw input_error{{.file = s.file.string()},
+                                  "a MATLAB file, and this program was built without libmatio",
+                                  "install libmatio (Debian: libmatio-dev) and build again, or "
+                                  "export a table"};
+            result.stretches.push_back(read_matlab_table(s, tools_.read_matlab(s.file), protocol));
             result.lines = result.stretches.back().rows.size();
         } else {
+            auto const text = tools_.read(s.file);
             if (s.form.from == source_form::kind::csv)
                 result.stretches.push_back(read_recorded_table(s, text, protocol));
             else

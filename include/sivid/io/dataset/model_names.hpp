@@ -2,7 +2,6 @@
 #ifndef SIVID_IO_DATASET_MODEL_NAMES_HPP
 #define SIVID_IO_DATASET_MODEL_NAMES_HPP
 
-#include <sivid/compiled.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/number/interval.hpp>
 
@@ -30,7 +29,19 @@ struct model_names {
 };
 
 /// The names of a recorded model.
-[[nodiscard]] SIVID_DECL model_names names_of(model_description const& model);
+[[nodiscard]] inline model_names names_of(model_description const& model) {
+    model_names names;
+    names.name = model.name;
+    names.time_unit = model.time_unit;
+    for (auto const& c : model.constants) names.constants.push_back({c.name, c.unit});
+    for (auto const& i : model.inputs) names.inputs.push_back({i.name, i.unit});
+    for (auto const& c : model.channels) names.channels.push_back({c.name, c.unit});
+    for (auto const& s : model.states) {
+        names.states.push_back({s.name, s.unit});
+        names.state_ranges.push_back(s.limit.range());
+    }
+    return names;
+}
 
 /// The index of the entry with this name, or nothing.
 [[nodiscard]] inline std::optional<std::size_t> index_of(std::vector<name_unit> const& list,
@@ -42,9 +53,5 @@ struct model_names {
 }
 
 } // namespace sivid
-
-#ifndef SIVID_COMPILED
-#include <sivid/io/dataset/impl/model_names.ipp>
-#endif
 
 #endif // SIVID_IO_DATASET_MODEL_NAMES_HPP

@@ -87,7 +87,7 @@ public:
     [[nodiscard]] std::optional<std::size_t> whole() const {
         if (is_zero()) return 0;
         if (negative_ || exponent_ < 0 || !is_below_power_of_ten(20)) return std::nullopt;
-        auto const text = digits_at(0);
+        auto const text = digits_ + std::string(static_cast<std::size_t>(exponent_), '0');
         std::size_t value = 0;
         auto const read = std::from_chars(text.data(), text.data() + text.size(), value);
         return read.ec == std::errc{} ? std::optional{value} : std::nullopt;
@@ -105,17 +105,9 @@ public:
     friend std::optional<double> nearest(exact_decimal const& x);
 
 private:
+    struct wholes;
+
     static exact_decimal sum(exact_decimal const& a, exact_decimal const& b);
-
-    /// The same for wholes x, y of at most 17 digits: |a| = x 10^exponent, |b| = y 10^exponent.
-    static exact_decimal sum_of_short(exact_decimal const& a, exact_decimal const& b,
-                                      std::string const& x, std::string const& y, long exponent);
-
-    /// Digit-wise x + y or x - y for texts of one length; the difference must not be negative.
-    static std::string combine(std::string const& x, std::string const& y, int sign);
-
-    /// The digits of the integer |x| 10^-exponent, for an exponent not above that of x.
-    [[nodiscard]] std::string digits_at(long exponent) const;
 
     /// What a scan of `digits_` would find, had it the point and the exponent.
     [[nodiscard]] detail::number_text taken_apart() const;

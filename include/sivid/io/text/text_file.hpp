@@ -2,7 +2,6 @@
 #ifndef SIVID_IO_TEXT_TEXT_FILE_HPP
 #define SIVID_IO_TEXT_TEXT_FILE_HPP
 
-#include <sivid/compiled.hpp>
 #include <sivid/io/input_error.hpp>
 
 #include <cstdint>
@@ -13,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace sivid {
 
@@ -27,7 +27,23 @@ inline constexpr std::uintmax_t largest_text = 1'000'000'000; ///< [byte]
 
 /// The whole of a regular file, without its UTF-8 byte-order mark.
 /// @throws input_error when there is no such file, or it is too large or cannot be read
-[[nodiscard]] SIVID_DECL std::string read_text(std::filesystem::path const& file);
+[[nodiscard]] inline std::string read_text(std::filesystem::path const& file) {
+    std::error_code fault;
+    auto const fail = [&](std::string problem, std::string remedy) {
+        throw input_error{{.file = file.string()}, std::move(problem), std::move(remedy)};
+    };
+    auto const status = std::filesystem::status(file, fault);
+    if (!std::filesystem::exists(status)) fail("no such file", "check the path");
+    if (!std::filesystem::is_regular_file(status))
+        fail("not a regular file", "give the path of a file");
+    if (auto const size = std::filesystem::file_size(file, fault); !fault && size > largest_text)
+        fail("larger than 1 GB", "give a part of it, or fewer samples a second");
+    std::ifstream in{file, std::ios::binary};
+    std::string text{std::istreambuf_iterator<char>{in}, std::istreambuf_iterator<char>{}};
+    if (!in) fail("cannot be read", "check the permissions");
+    if (std::string_view{text}.substr(0, 3) == "\xEF\xBB\xBF") text.erase(0, 3);
+    return text;
+}
 
 /// The path of a file that a data set names, made safe: relative, and inside the folder even when
 /// links are followed.
@@ -61,9 +77,5 @@ inline constexpr std::uintmax_t largest_text = 1'000'000'000; ///< [byte]
 }
 
 } // namespace sivid
-
-#ifndef SIVID_COMPILED
-#include <sivid/io/text/impl/text_file.ipp>
-#endif
 
 #endif // SIVID_IO_TEXT_TEXT_FILE_HPP

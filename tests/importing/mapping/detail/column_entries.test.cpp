@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/importing/mapping/detail/column_entries.hpp>
+#include <sivid/importing/mapping/detail/source_form_reader.hpp>
 
 #include "io/import_support.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/importing/table/detail/wrapping_counter.hpp>
+#include <sivid/importing/table/detail/turns.hpp>
 
 #include "io/import_support.hpp"
 

@@ -95,7 +95,7 @@ private:
     }
     void starts(json_value const* list) {
         for (auto const& entry : members(list)) {
-            if (object(&entry) == nullptr) continue;
+            if (object(&entry) == nullptr || entry.find("range") != nullptr) continue;
             if (entry.find("rate_of") != nullptr)
                 all(entry, {{"acceleration", "how fast the rate itself changes at most: without "
                                              "it differences bound no rate"}});

@@ -2,7 +2,8 @@
 #ifndef SIVID_IMPORTING_MAPPING_DETAIL_SOURCE_FORM_READER_HPP
 #define SIVID_IMPORTING_MAPPING_DETAIL_SOURCE_FORM_READER_HPP
 
-#include <sivid/importing/mapping/detail/column_entries.hpp>
+#include <sivid/importing/detail/import_mapping.hpp>
+#include <sivid/io/dataset/mapping_entries.hpp>
 #include <sivid/io/dataset/stated_unit.hpp>
 #include <sivid/model/unit.hpp>
 
@@ -12,6 +13,34 @@
 #include <utility>
 
 namespace sivid {
+namespace mapping_entries {
+
+/// A heading, or the number of a column from 1.
+[[nodiscard]] inline column_reference column(json_value const& entry) {
+    column_reference result;
+    result.place = entry.place();
+    if (entry.type() == json_value::kind::number)
+        result.number = whole(entry, 1, 100'000);
+    else
+        result.heading = entry.string();
+    return result;
+}
+
+/// Bits of a counter that wraps.
+[[nodiscard]] inline unsigned counter_bits(json_value const& entry) {
+    return static_cast<unsigned>(whole(entry, 8, 48));
+}
+
+/// A text of one character.
+[[nodiscard]] inline char character(json_value const& entry, std::string const& allowed,
+                                    char const* remedy) {
+    auto const& text = entry.raw_string();
+    if (text.size() != 1 || allowed.find(text.front()) == std::string::npos)
+        entry.fail(text_of("found ", in_quotes(text)), remedy);
+    return text.front();
+}
+
+} // namespace mapping_entries
 
 /// "lines": "all", or {"column": ..., "is": text or texts}: which lines count.
 /// @throws input_error

@@ -4,6 +4,7 @@
 
 #include <sivid/importing/detail/import_mapping.hpp>
 #include <sivid/io/dataset/mapping_entries.hpp>
+#include <sivid/io/dataset/stated_unit.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,8 +14,8 @@
 
 namespace sivid {
 
-/// "initial": "propose", or for each state a range, "propose", {"channel": ...} or {"rate_of":
-/// ...}.
+/// "initial": "propose", or for each state a range, {"range": ..., "unit": ...}, "propose",
+/// {"channel": ...} or {"rate_of": ...}.
 /// @param channels  those of the scenario; "propose" alone means a state for each
 /// @throws input_error
 [[nodiscard]] inline std::vector<mapped_start>
@@ -43,7 +44,17 @@ read_starts(json_value const& list, std::vector<quantity_mapping> const& channel
     for (std::size_t i = 0; i < list.members().size(); ++i) {
         auto const& entry = list.members()[i];
         auto start = unbounded(mapping_entries::name(entry, list.name_of(i)), entry);
-        if (entry.type() == json_value::kind::object) {
+        bool const object = entry.type() == json_value::kind::object;
+        if (object && entry.find("range") != nullptr) {
+            entry.allow_only({"range", "unit"});
+            start.from = kind::stated;
+            start.bounded = true;
+            start.range = mapping_entries::range(entry.at("range"));
+            if (auto const* unit = entry.find("unit")) {
+                (void)read_unit(*unit);
+                start.unit = unit->any_string();
+            }
+        } else if (object) {
             bool const rate = entry.find("rate_of") != nullptr;
             if (rate) entry.allow_only({"rate_of", "acceleration"});
             if (!rate) entry.allow_only({"channel", "rate"});

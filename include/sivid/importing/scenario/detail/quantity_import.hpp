@@ -7,8 +7,6 @@
 #include <sivid/importing/scenario/detail/missing_samples.hpp>
 #include <sivid/importing/table/detail/recorded_rows.hpp>
 #include <sivid/importing/table/detail/turns.hpp>
-#include <sivid/importing/table/detail/wrapped_reading.hpp>
-#include <sivid/importing/table/detail/wrapping_counter.hpp>
 #include <sivid/measurement/error_bound.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <sivid/importing/detail/import_mapping.hpp>
 #include <sivid/importing/detail/import_protocol.hpp>
-#include <sivid/importing/table/detail/hidden_text.hpp>
+#include <sivid/importing/table/detail/recorded_text.hpp>
 
 #include <cstddef>
 #include <functional>

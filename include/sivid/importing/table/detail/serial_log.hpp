@@ -2,15 +2,14 @@
 #ifndef SIVID_IMPORTING_TABLE_DETAIL_SERIAL_LOG_HPP
 #define SIVID_IMPORTING_TABLE_DETAIL_SERIAL_LOG_HPP
 
-#include <sivid/importing/table/detail/check_sum.hpp>
-#include <sivid/importing/table/detail/hidden_text.hpp>
 #include <sivid/importing/table/detail/line_kinds.hpp>
 #include <sivid/importing/table/detail/recorded_rows.hpp>
 #include <sivid/importing/table/detail/recorded_text.hpp>
 #include <sivid/importing/table/detail/time_text.hpp>
-#include <sivid/importing/table/detail/wrapping_counter.hpp>
+#include <sivid/importing/table/detail/turns.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <iterator>
 #include <map>
@@ -22,6 +21,26 @@
 #include <vector>
 
 namespace sivid {
+
+/// What stands before the check sum of "text*HHHH", four hexadecimal digits: CRC-16/CCITT (0x1021,
+/// from 0xFFFF) of the bytes before the star. Every change of up to three bits of a line shorter
+/// than 4000 bytes shows, and of random others all but one in 65536.
+/// @returns nothing  when there is none, or it is wrong
+[[nodiscard]] inline std::optional<std::string_view> without_check_sum(std::string_view line) {
+    constexpr std::size_t tail = 5;
+    if (line.size() < tail || line[line.size() - tail] != '*') return std::nullopt;
+    unsigned stated = 0;
+    auto const* end = line.data() + line.size();
+    if (std::from_chars(end - 4, end, stated, 16).ptr != end) return std::nullopt;
+    line.remove_suffix(tail);
+    unsigned sum = 0xFFFF;
+    for (char const c : line) {
+        sum ^= static_cast<unsigned>(static_cast<unsigned char>(c)) << 8;
+        for (int bit = 0; bit < 8; ++bit)
+            sum = ((sum & 0x8000) != 0 ? (sum << 1) ^ 0x1021 : sum << 1) & 0xFFFF;
+    }
+    return sum == stated ? std::optional{line} : std::nullopt;
+}
 
 /// Cleans the log of a serial stream: lines of fields, the time a counter that may wrap or start
 /// again. Users call read_serial_log.

@@ -4,10 +4,37 @@
 
 #include <sivid/io/text/exact_decimal.hpp>
 
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 
+#include <boost/multiprecision/cpp_int.hpp>
+
 namespace sivid {
+
+/// Decimals as whole numbers of units 10^exponent.
+struct exact_decimal::wholes {
+    using number = boost::multiprecision::cpp_int;
+
+    [[nodiscard]] static exact_decimal decimal(number const& whole, long exponent) {
+        exact_decimal result;
+        result.negative_ = whole < 0;
+        result.digits_ = whole.str();
+        if (result.negative_) result.digits_.erase(0, 1);
+        result.exponent_ = exponent;
+        result.normalise();
+        return result;
+    }
+
+    /// x 10^-exponent, for an exponent not above that of x.
+    [[nodiscard]] static number of(exact_decimal const& x, long exponent) {
+        if (x.is_zero()) return 0;
+        auto const zeros = static_cast<std::size_t>(x.exponent_ - exponent);
+        number const size{x.digits_ + std::string(zeros, '0')};
+        return x.negative_ ? number{-size} : size;
+    }
+    [[nodiscard]] static number of(exact_decimal const& x) { return of(x, x.exponent_); }
+};
 
 SIVID_DECL std::optional<exact_decimal> exact_decimal::parse(std::string_view text) {
     exact_decimal result;
@@ -76,112 +103,44 @@ SIVID_DECL exact_decimal exact_decimal::rounded(double value, int places) {
     return parse({buffer, static_cast<std::size_t>(end - buffer)}).value_or(exact_decimal{});
 }
 
-SIVID_DECL exact_decimal exact_decimal::sum_of_short(exact_decimal const& a, exact_decimal const& b,
-                                                     std::string const& x, std::string const& y,
-                                                     long exponent) {
-    auto const signed_whole = [](std::string const& digits, bool negative) {
-        std::int64_t n = 0; // of no digits: zero
-        std::from_chars(digits.data(), digits.data() + digits.size(), n);
-        return negative ? -n : n;
-    };
-    auto const total = signed_whole(x, a.negative_) + signed_whole(y, b.negative_);
-    exact_decimal result;
-    result.exponent_ = exponent;
-    result.negative_ = total < 0;
-    result.digits_ = std::to_string(total < 0 ? -total : total);
-    result.normalise();
-    return result;
-}
-
 SIVID_DECL exact_decimal exact_decimal::sum(exact_decimal const& a, exact_decimal const& b) {
     auto const exponent = std::min(a.exponent_, b.exponent_);
-    auto x = a.digits_at(exponent), y = b.digits_at(exponent);
-    if (x.size() <= 17 && y.size() <= 17) return sum_of_short(a, b, x, y, exponent);
-    auto const width = std::max(x.size(), y.size()) + 1;
-    x.insert(0, width - x.size(), '0');
-    y.insert(0, width - y.size(), '0');
-
-    exact_decimal result;
-    result.exponent_ = exponent;
-    if (a.negative_ == b.negative_) {
-        result.negative_ = a.negative_;
-        result.digits_ = combine(x, y, +1);
-    } else if (x >= y) { // same length: text order is number order
-        result.negative_ = a.negative_;
-        result.digits_ = combine(x, y, -1);
-    } else {
-        result.negative_ = b.negative_;
-        result.digits_ = combine(y, x, -1);
-    }
-    result.normalise();
-    return result;
+    return wholes::decimal(wholes::of(a, exponent) + wholes::of(b, exponent), exponent);
 }
 
 SIVID_DECL exact_decimal exact_decimal::times(std::size_t n) const {
-    exact_decimal y;
-    y.digits_ = std::to_string(n);
-    y.normalise();
-    return times(y);
+    return wholes::decimal(wholes::of(*this) * n, exponent_);
 }
 
 SIVID_DECL exact_decimal exact_decimal::times(exact_decimal const& y) const {
-    exact_decimal result;
-    if (is_zero() || y.is_zero()) return result;
-    std::vector<unsigned> sums(digits_.size() + y.digits_.size(), 0); // last digit first
-    for (std::size_t i = 0; i < digits_.size(); ++i) {
-        auto const d = static_cast<unsigned>(digits_[digits_.size() - 1 - i] - '0');
-        for (std::size_t j = 0; j < y.digits_.size(); ++j)
-            sums[i + j] += d * static_cast<unsigned>(y.digits_[y.digits_.size() - 1 - j] - '0');
-    }
-    for (std::size_t i = 0; i + 1 < sums.size(); ++i) {
-        sums[i + 1] += sums[i] / 10;
-        sums[i] %= 10;
-    }
-    for (auto s = sums.rbegin(); s != sums.rend(); ++s)
-        result.digits_ += static_cast<char>('0' + *s);
-    result.negative_ = negative_ != y.negative_;
-    result.exponent_ = exponent_ + y.exponent_;
-    result.normalise();
-    return result;
+    return wholes::decimal(wholes::of(*this) * wholes::of(y), exponent_ + y.exponent_);
 }
 
 SIVID_DECL std::pair<exact_decimal, exact_decimal>
 exact_decimal::divided_by(std::size_t n, std::size_t digits) const {
-    exact_decimal near;
-    if (is_zero()) return {near, near};
-    near.negative_ = negative_;
-    near.exponent_ = exponent_ + static_cast<long>(digits_.size());
-    std::size_t rest = 0, i = 0;
-    while ((i < digits_.size() || rest != 0) && near.digits_.size() < digits) {
-        rest = rest * 10 + (i < digits_.size() ? static_cast<std::size_t>(digits_[i] - '0') : 0);
-        ++i;
-        --near.exponent_;
-        if (!near.digits_.empty() || rest >= n) near.digits_ += static_cast<char>('0' + rest / n);
-        rest %= n;
+    // Zeros enough that the quotient has all digits wanted; those beyond are cut off.
+    auto exponent = exponent_ - static_cast<long>(digits + std::to_string(n).size());
+    auto const size = wholes::of(negative_ ? -*this : *this, exponent);
+    wholes::number divisor = n, near = size / divisor;
+    if (auto const found = near.str().size(); found > digits) {
+        auto const beyond = found - digits;
+        divisor *= pow(wholes::number{10}, static_cast<unsigned>(beyond));
+        near = size / divisor;
+        exponent += static_cast<long>(beyond);
     }
-    bool const exact = rest == 0 && i >= digits_.size();
-    exact_decimal last; // one unit of the last digit, away from zero
-    last.negative_ = negative_;
-    last.digits_ = "1";
-    last.exponent_ = near.exponent_;
-    near.normalise();
-    if (exact) return {near, near};
-    auto const far = near + last;
-    return negative_ ? std::pair{far, near} : std::pair{near, far};
+    wholes::number far = near;
+    if (near * divisor != size) ++far;
+    auto const a = wholes::decimal(near, exponent), b = wholes::decimal(far, exponent);
+    return negative_ ? std::pair{-b, -a} : std::pair{a, b};
 }
 
 SIVID_DECL std::size_t exact_decimal::floor() const {
-    if (is_zero() || negative_) return 0;
-    auto whole = digits_;
-    if (exponent_ >= 0) {
-        whole.append(static_cast<std::size_t>(exponent_), '0');
-    } else {
-        auto const cut = static_cast<std::size_t>(-exponent_);
-        if (cut >= whole.size()) return 0;
-        whole.resize(whole.size() - cut);
-    }
+    if (negative_ || !is_below_power_of_ten(19)) return 0;
+    if (exponent_ >= 0) return whole().value_or(0);
+    auto const cut = static_cast<std::size_t>(-exponent_);
+    auto const kept = digits_.size() - std::min(cut, digits_.size());
     std::size_t result = 0;
-    std::from_chars(whole.data(), whole.data() + whole.size(), result);
+    std::from_chars(digits_.data(), digits_.data() + kept, result);
     return result;
 }
 
@@ -201,24 +160,6 @@ SIVID_DECL std::string exact_decimal::text() const {
     auto const fraction = digits_.substr(1);
     return sign + digits_.substr(0, 1) + (fraction.empty() ? "" : "." + fraction) + "e" +
            std::to_string(exponent_ + count - 1);
-}
-
-SIVID_DECL std::string exact_decimal::combine(std::string const& x, std::string const& y,
-                                              int sign) {
-    std::string result(x.size(), '0');
-    int carry = 0;
-    for (auto i = x.size(); i-- > 0;) {
-        int digit = (x[i] - '0') + sign * (y[i] - '0') + carry;
-        carry = digit < 0 ? -1 : digit / 10;
-        digit -= 10 * carry;
-        result[i] = static_cast<char>('0' + digit);
-    }
-    return result;
-}
-
-SIVID_DECL std::string exact_decimal::digits_at(long exponent) const {
-    if (is_zero()) return {};
-    return digits_ + std::string(static_cast<std::size_t>(exponent_ - exponent), '0');
 }
 
 SIVID_DECL detail::number_text exact_decimal::taken_apart() const {
