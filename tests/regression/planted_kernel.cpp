@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A kernel that is broken, as a compiler might: every solver has to refuse.
+// A kernel of the library that is broken, as a compiler might: every solver has to refuse.
 #include <sivid/number/pack.hpp>
 #include <sivid/number/pack/detail/pack_elementary.hpp>
 
@@ -10,7 +10,8 @@ bounds<vector_portable> sin(bounds<vector_portable> const& x) noexcept {
 }
 } // namespace sivid::simd
 
-#include <sivid/number/guard.hpp>
+#include <sivid/impl/library.ipp>
+#include <sivid/number/impl/guard.ipp>
 
 #include <cstdio>
 #include <string>
