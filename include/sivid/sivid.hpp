@@ -11,15 +11,12 @@
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/elementary.hpp>
-#include <sivid/number/elementary/exponential.hpp>
 #include <sivid/number/few_digits.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/pack.hpp>
 #include <sivid/number/pack/lanes.hpp>
-#include <sivid/number/pack_functions.hpp>
-#include <sivid/number/pack_traits.hpp>
 #include <sivid/number/polynomial/monomial_space.hpp>
 #include <sivid/number/polynomial/monomials.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>

@@ -121,8 +121,7 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
 inline std::string_view compiler_word(std::string const& line, std::string_view name) {
     static std::set<std::string_view> const apart{
         "machine.hpp",     "vectors.hpp",         "wide_integer.hpp", "rounding.hpp",
-        "pack_target.hpp", "pack_elementary.hpp", "pack_avx2.hpp",    "pack_avx512.hpp",
-        "pack_sse2.hpp",   "pack_neon.hpp"};
+        "pack_target.hpp", "pack_avx512.hpp"};
     if (starts_with(name, "sivid/number/") && apart.count(name.substr(name.rfind('/') + 1)) > 0)
         return {};
     auto const code = line.substr(0, line.find("//"));

@@ -5,7 +5,7 @@
 #define SIVID_TESTS_CONFORMANCE_TYPES_HPP
 
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/number/pack_functions.hpp>
+#include "support/pack_functions.hpp"
 
 #if defined(SIVID_HAS_MPFI)
 #include <sivid/number/mp_functions.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/number/guard.hpp>
 #include <sivid/number/pack/detail/known_values.hpp>
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 
 #include "support/catch.hpp"
 #include "support/flushing.hpp"

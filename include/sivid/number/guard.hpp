@@ -33,13 +33,12 @@ template <class T>
         double x, y;
         double sum, difference, product, quotient; // the greatest doubles below, by MPFR
     };
-    constexpr known points[] = {
-        {-3.7, 0.7, -0x1.8000000000001p+1, -0x1.199999999999ap+2, -0x1.4b851eb851eb9p+1,
-         -0x1.524924924924ap+2},
-        {0.6, 3.1, 0x1.d999999999999p+1, -0x1.4000000000001p+1, 0x1.dc28f5c28f5c2p+0,
-         0x1.8c6318c6318c5p-3},
-        {2.57, 7.39, 0x1.3eb851eb851ebp+3, -0x1.347ae147ae148p+2, 0x1.2fe075f6fd21fp+4,
-         0x1.641d1949c9443p-2}};
+    constexpr known points[] = {{-3.7, 0.7, -0x1.8000000000001p+1, -0x1.199999999999ap+2,
+                                 -0x1.4b851eb851eb9p+1, -0x1.524924924924ap+2},
+                                {0.6, 3.1, 0x1.d999999999999p+1, -0x1.4000000000001p+1,
+                                 0x1.dc28f5c28f5c2p+0, 0x1.8c6318c6318c5p-3},
+                                {2.57, 7.39, 0x1.3eb851eb851ebp+3, -0x1.347ae147ae148p+2,
+                                 0x1.2fe075f6fd21fp+4, 0x1.641d1949c9443p-2}};
     auto const holds = [](auto const& z, double below) {
         return T::lower(z) <= below && detail::next_up(below) <= T::upper(z);
     };
@@ -99,8 +98,8 @@ inline void require_unbroken(broken_kernel const& k) {
 /// @guarantee  on return: the machine has the instructions that this file was compiled for (as far
 ///             as packs use them), round-to-nearest is set, subnormals are neither flushed nor read
 ///             as zero, directed rounding works in each way that sivid uses, plain arithmetic is
-///             not rearranged, and + - * / of `interval` enclose known values (with `sivid::compiled`:
-///             all functions of `interval` and packs)
+///             not rearranged, and + - * / of `interval` enclose known values (with
+///             `sivid::compiled`: all functions of `interval` and packs)
 /// @throws     unsound_environment with the reason otherwise (for instance under valgrind, which
 ///             ignores the rounding mode, or in a program linked with -ffast-math)
 /// @cost       about 50 ns; less than a millisecond the first time in a process

@@ -3,8 +3,8 @@
 #define SIVID_NUMBER_MP_FUNCTIONS_HPP
 
 /// @file
-/// The proven path for the vocabulary type: elementary functions whose bounds rest on MPFR's
-/// correct rounding instead of tested bounds of the C library, and which are therefore tight.
+/// Elementary functions for the vocabulary type whose bounds rest on MPFR's correct rounding instead
+/// of sivid's own kernels, and which are therefore tight.
 /// `proven_interval` brings them to code that is written for any interval type. One to two hundred
 /// times slower. Needs mpfi, mpfr and gmp at link time.
 

@@ -4,8 +4,8 @@
 
 /// @file
 /// A multiprecision interval: Boost.Multiprecision over MPFI. Its elementary functions rest on
-/// MPFR's correct rounding instead of tested bounds of the C library. Needs mpfi, mpfr and gmp at
-/// link time; no other header includes this one.
+/// MPFR's correct rounding instead of sivid's own kernels. Needs mpfi, mpfr and gmp at link time; no
+/// other header includes this one.
 
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>

@@ -3,7 +3,6 @@
 #define SIVID_NUMBER_POLYNOMIAL_UNIVARIATE_TAYLOR_HPP
 
 #include <sivid/number/elementary.hpp>
-#include <sivid/number/elementary/detail/tanh_slope.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <cstddef>

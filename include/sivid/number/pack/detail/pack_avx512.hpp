@@ -7,7 +7,7 @@
 /// (embedded rounding), round-to-nearest included: results do not depend on the rounding mode of
 /// the thread, and compilers can neither fold, share nor contract them.
 
-#include <sivid/number/pack/detail/pack_directed.hpp>
+#include <sivid/number/pack/detail/pack_arithmetic.hpp>
 #include <sivid/number/pack/detail/pack_target.hpp>
 
 #if SIVID_PACK_AVX512
@@ -24,120 +24,124 @@ inline namespace SIVID_PACK_TARGET {
 /// char.
 [[nodiscard]] inline __mmask8 all_lanes() noexcept { return 0xFF; }
 
-class mask_avx512 {
+template <>
+class vector_mask<8> {
 public:
-    mask_avx512() = default;
-    explicit mask_avx512(__mmask8 m) noexcept : bits_{m} {}
+    vector_mask() = default;
+    explicit vector_mask(__mmask8 m) noexcept : bits_{m} {}
     [[nodiscard]] __mmask8 raw() const noexcept { return bits_; }
     [[nodiscard]] unsigned bits() const noexcept { return bits_; }
-    friend mask_avx512 operator&(mask_avx512 a, mask_avx512 b) noexcept {
-        return mask_avx512{static_cast<__mmask8>(a.bits_ & b.bits_)};
+    friend vector_mask operator&(vector_mask a, vector_mask b) noexcept {
+        return vector_mask{static_cast<__mmask8>(a.bits_ & b.bits_)};
     }
-    friend mask_avx512 operator|(mask_avx512 a, mask_avx512 b) noexcept {
-        return mask_avx512{static_cast<__mmask8>(a.bits_ | b.bits_)};
+    friend vector_mask operator|(vector_mask a, vector_mask b) noexcept {
+        return vector_mask{static_cast<__mmask8>(a.bits_ | b.bits_)};
     }
-    friend mask_avx512 operator!(mask_avx512 a) noexcept {
-        return mask_avx512{static_cast<__mmask8>(~a.bits_)};
+    friend vector_mask operator!(vector_mask a) noexcept {
+        return vector_mask{static_cast<__mmask8>(~a.bits_)};
     }
 
 private:
     __mmask8 bits_ = 0;
 };
 
-class vector_avx512 {
+template <>
+class vector<8> {
 public:
-    using mask = mask_avx512;
+    using mask = vector_mask<8>;
     static constexpr std::size_t lanes = 8;
     static constexpr bool fused = true;          // fma() rounds once
     static constexpr bool keeps_own_mode = true; // results do not depend on MXCSR's rounding field
     static constexpr bool reads_subnormals = true; // exponent() and mantissa()
 
-    vector_avx512() = default;
-    explicit vector_avx512(__m512d v) noexcept : v_{v} {}
-    explicit vector_avx512(double x) noexcept : v_{_mm512_set1_pd(x)} {}
-    static vector_avx512 load(double const* p) noexcept {
-        return vector_avx512{_mm512_loadu_pd(p)};
-    }
+    vector() = default;
+    explicit vector(__m512d v) noexcept : v_{v} {}
+    explicit vector(double x) noexcept : v_{_mm512_set1_pd(x)} {}
+    static vector load(double const* p) noexcept { return vector{_mm512_loadu_pd(p)}; }
     void store(double* p) const noexcept { _mm512_storeu_pd(p, v_); }
     [[nodiscard]] __m512d raw() const noexcept { return v_; }
 
-    friend vector_avx512 operator+(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_add_round_pd(all_lanes(), a.v_, b.v_, nearest)};
+    [[gnu::always_inline]] friend vector kept(vector a) noexcept {
+        __asm__("" : SIVID_REGISTER(a.v_));
+        return a;
     }
-    friend vector_avx512 operator-(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_sub_round_pd(all_lanes(), a.v_, b.v_, nearest)};
+    friend vector operator+(vector a, vector b) noexcept {
+        return vector{_mm512_maskz_add_round_pd(all_lanes(), a.v_, b.v_, nearest)};
     }
-    friend vector_avx512 operator*(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_mul_round_pd(all_lanes(), a.v_, b.v_, nearest)};
+    friend vector operator-(vector a, vector b) noexcept {
+        return vector{_mm512_maskz_sub_round_pd(all_lanes(), a.v_, b.v_, nearest)};
     }
-    friend vector_avx512 operator/(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_div_round_pd(all_lanes(), a.v_, b.v_, nearest)};
+    friend vector operator*(vector a, vector b) noexcept {
+        return vector{_mm512_maskz_mul_round_pd(all_lanes(), a.v_, b.v_, nearest)};
     }
-    friend vector_avx512 operator-(vector_avx512 a) noexcept {
-        return vector_avx512{_mm512_xor_pd(a.v_, _mm512_set1_pd(-0.0))};
+    friend vector operator/(vector a, vector b) noexcept {
+        return vector{_mm512_maskz_div_round_pd(all_lanes(), a.v_, b.v_, nearest)};
     }
-    friend vector_avx512 fma(vector_avx512 a, vector_avx512 b, vector_avx512 c) noexcept {
-        return vector_avx512{_mm512_fmadd_round_pd(a.v_, b.v_, c.v_, nearest)};
+    friend vector operator-(vector a) noexcept {
+        return vector{_mm512_xor_pd(a.v_, _mm512_set1_pd(-0.0))};
     }
-    friend vector_avx512 sqrt(vector_avx512 a) noexcept {
-        return vector_avx512{_mm512_maskz_sqrt_round_pd(all_lanes(), a.v_, nearest)};
+    friend vector fma(vector a, vector b, vector c) noexcept {
+        return vector{_mm512_fmadd_round_pd(a.v_, b.v_, c.v_, nearest)};
     }
-    friend vector_avx512 abs(vector_avx512 a) noexcept {
-        return vector_avx512{_mm512_andnot_pd(_mm512_set1_pd(-0.0), a.v_)};
+    friend vector sqrt(vector a) noexcept {
+        return vector{_mm512_maskz_sqrt_round_pd(all_lanes(), a.v_, nearest)};
+    }
+    friend vector abs(vector a) noexcept {
+        return vector{_mm512_andnot_pd(_mm512_set1_pd(-0.0), a.v_)};
     }
     /// The second operand where one of them is NaN.
-    friend vector_avx512 min(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_min_round_pd(all_lanes(), a.v_, b.v_, _MM_FROUND_NO_EXC)};
+    friend vector min(vector a, vector b) noexcept {
+        return vector{_mm512_maskz_min_round_pd(all_lanes(), a.v_, b.v_, _MM_FROUND_NO_EXC)};
     }
-    friend vector_avx512 max(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_max_round_pd(all_lanes(), a.v_, b.v_, _MM_FROUND_NO_EXC)};
+    friend vector max(vector a, vector b) noexcept {
+        return vector{_mm512_maskz_max_round_pd(all_lanes(), a.v_, b.v_, _MM_FROUND_NO_EXC)};
     }
     /// The other operand where one of them is NaN.
-    friend vector_avx512 min_number(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_range_pd(all_lanes(), a.v_, b.v_, 0x4)};
+    friend vector min_number(vector a, vector b) noexcept {
+        return vector{_mm512_maskz_range_pd(all_lanes(), a.v_, b.v_, 0x4)};
     }
-    friend vector_avx512 max_number(vector_avx512 a, vector_avx512 b) noexcept {
-        return vector_avx512{_mm512_maskz_range_pd(all_lanes(), a.v_, b.v_, 0x5)};
+    friend vector max_number(vector a, vector b) noexcept {
+        return vector{_mm512_maskz_range_pd(all_lanes(), a.v_, b.v_, 0x5)};
     }
 
-    friend mask operator<(vector_avx512 a, vector_avx512 b) noexcept {
+    friend mask operator<(vector a, vector b) noexcept {
         return mask{_mm512_cmp_pd_mask(a.v_, b.v_, _CMP_LT_OQ)};
     }
-    friend mask operator<=(vector_avx512 a, vector_avx512 b) noexcept {
+    friend mask operator<=(vector a, vector b) noexcept {
         return mask{_mm512_cmp_pd_mask(a.v_, b.v_, _CMP_LE_OQ)};
     }
-    friend mask operator>(vector_avx512 a, vector_avx512 b) noexcept { return b < a; }
-    friend mask operator>=(vector_avx512 a, vector_avx512 b) noexcept { return b <= a; }
-    friend mask operator==(vector_avx512 a, vector_avx512 b) noexcept {
+    friend mask operator>(vector a, vector b) noexcept { return b < a; }
+    friend mask operator>=(vector a, vector b) noexcept { return b <= a; }
+    friend mask operator==(vector a, vector b) noexcept {
         return mask{_mm512_cmp_pd_mask(a.v_, b.v_, _CMP_EQ_OQ)};
     }
-    friend mask unordered(vector_avx512 a, vector_avx512 b) noexcept {
+    friend mask unordered(vector a, vector b) noexcept {
         return mask{_mm512_cmp_pd_mask(a.v_, b.v_, _CMP_UNORD_Q)};
     }
-    friend vector_avx512 select(mask m, vector_avx512 yes, vector_avx512 no) noexcept {
-        return vector_avx512{_mm512_mask_blend_pd(m.raw(), no.v_, yes.v_)};
+    friend vector select(mask m, vector yes, vector no) noexcept {
+        return vector{_mm512_mask_blend_pd(m.raw(), no.v_, yes.v_)};
     }
 
-    friend vector_avx512 negate_where(mask m, vector_avx512 a) noexcept {
-        return vector_avx512{_mm512_mask_xor_pd(a.v_, m.raw(), a.v_, _mm512_set1_pd(-0.0))};
+    friend vector negate_where(mask m, vector a) noexcept {
+        return vector{_mm512_mask_xor_pd(a.v_, m.raw(), a.v_, _mm512_set1_pd(-0.0))};
     }
     /// Where bit I of the integer n is set, for a = n + 1.5 2^52.
     template <int I>
-    friend mask bit_is_set(vector_avx512 a) noexcept {
+    friend mask bit_is_set(vector a) noexcept {
         return mask{_mm512_test_epi64_mask(_mm512_castpd_si512(a.v_), _mm512_set1_epi64(1 << I))};
     }
 
     /// floor(log2 x) and x / 2^floor(log2 x) in [1, 2), for finite x > 0, subnormals included.
-    friend vector_avx512 exponent(vector_avx512 x) noexcept {
-        return vector_avx512{_mm512_maskz_getexp_pd(all_lanes(), x.v_)};
+    friend vector exponent(vector x) noexcept {
+        return vector{_mm512_maskz_getexp_pd(all_lanes(), x.v_)};
     }
-    friend vector_avx512 mantissa(vector_avx512 x) noexcept {
-        return vector_avx512{
+    friend vector mantissa(vector x) noexcept {
+        return vector{
             _mm512_maskz_getmant_pd(all_lanes(), x.v_, _MM_MANT_NORM_1_2, _MM_MANT_SIGN_src)};
     }
     /// 2^k for integers k in [-1022, 1023].
-    friend vector_avx512 power_of_two(vector_avx512 k) noexcept {
-        return vector_avx512{
+    friend vector power_of_two(vector k) noexcept {
+        return vector{
             _mm512_maskz_scalef_round_pd(all_lanes(), _mm512_set1_pd(1.0), k.v_, nearest)};
     }
 
@@ -149,8 +153,8 @@ private:
 
 /// Directed rounding by embedded rounding: each bound is the tightest.
 template <>
-struct directed<vector_avx512> {
-    using V = vector_avx512;
+struct directed<vector<8>> {
+    using V = vector<8>;
     static constexpr int down = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
     static constexpr int up = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
 

@@ -16,32 +16,20 @@
 /// `SIVID_PORTABLE_ARITHMETIC` (the same in all files of a program: `interval` is another type).
 
 #include <cfenv>
-#include <cmath> // defines __GLIBC__ where it applies
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
-/// Whether elementary functions of `interval` are sivid's own (detail/own_functions.hpp) and not
-/// those of the C library: where nobody has measured the library's errors, and wherever
-/// `SIVID_OWN_FUNCTIONS` is defined (the same in all files of a program: `interval` is another
-/// type).
-#if defined(SIVID_OWN_FUNCTIONS) || !defined(__GLIBC__) || defined(__UCLIBC__)
-#define SIVID_TRUSTS_LIBRARY 0
-#define SIVID_NAMED(name) name##_own
-#else
-#define SIVID_TRUSTS_LIBRARY 1
-#define SIVID_NAMED(name) name
-#endif
-
 #if defined(SIVID_PORTABLE_ARITHMETIC)
-#define SIVID_MACHINE SIVID_NAMED(portable)
+#define SIVID_MACHINE portable
 #elif defined(__x86_64__)
 #define SIVID_MACHINE_X86_64 1
-#define SIVID_MACHINE SIVID_NAMED(x86_64)
+#define SIVID_MACHINE x86_64
 #elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
 #define SIVID_MACHINE_ARM64 1
-#define SIVID_MACHINE SIVID_NAMED(arm64)
+#define SIVID_MACHINE arm64
 #else
-#define SIVID_MACHINE SIVID_NAMED(portable)
+#define SIVID_MACHINE portable
 #endif
 #ifndef SIVID_MACHINE_X86_64
 #define SIVID_MACHINE_X86_64 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_NUMBER_PACK_FUNCTIONS_HPP
-#define SIVID_NUMBER_PACK_FUNCTIONS_HPP
+#ifndef SIVID_TESTS_SUPPORT_PACK_FUNCTIONS_HPP
+#define SIVID_TESTS_SUPPORT_PACK_FUNCTIONS_HPP
 
 /// @file
 /// Operators and functions of packs as in formulas, those that models are made of: the 1788 value
@@ -8,7 +8,6 @@
 /// cut are set in it.
 
 #include <sivid/number/pack.hpp>
-#include <sivid/number/pack_traits.hpp>
 
 #include <cstddef>
 #include <cstdint>
