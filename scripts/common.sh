@@ -79,7 +79,7 @@ job_count() {
 # need_check_packages: what all tests need.
 need_check_packages() {
     need_packages g++ clang cmake make ninja-build libboost-dev libeigen3-dev nlohmann-json3-dev libcli11-dev catch2 \
-        libmpfr-dev libmpfi-dev libgmp-dev libbenchmark-dev libfmt-dev libtbb-dev libboost-mpi-dev openmpi-bin libopenmpi-dev \
+        libmpfr-dev libmpfi-dev libgmp-dev libbenchmark-dev libtbb-dev libboost-mpi-dev openmpi-bin libopenmpi-dev \
         pkg-config dpkg-dev file debootstrap
 }
 

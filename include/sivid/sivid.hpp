@@ -7,7 +7,6 @@
 // clang-format off
 #include <sivid/number/arithmetic.hpp>
 #include <sivid/number/boost_interval.hpp>
-#include <sivid/number/cancellation.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/elementary.hpp>
@@ -21,9 +20,7 @@
 #include <sivid/number/polynomial/monomials.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>
 #include <sivid/number/polynomial/univariate_taylor.hpp>
-#include <sivid/number/relations.hpp>
 #include <sivid/number/rounding.hpp>
-#include <sivid/number/stream.hpp>
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
@@ -34,7 +31,6 @@
 #include <sivid/space/box_cover.hpp>
 #include <sivid/space/box_lanes.hpp>
 #include <sivid/space/dense.hpp>
-#include <sivid/space/eigen_support.hpp>
 #include <sivid/space/exact/integer_span.hpp>
 #include <sivid/space/frame/orthogonal_frame.hpp>
 #include <sivid/space/linear_program/constraint_blocks.hpp>

@@ -99,10 +99,9 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
                 "boost/iostreams", "boost/log"}))
         return false;       // these need compiled libraries
     if (one_of({"Eigen/"})) // decompositions cost seconds, and stand behind one header
-        return name == "Eigen/Core" || file == "dense.ipp" || file == "eigen_support.hpp";
+        return name == "Eigen/Core" || file == "dense.ipp";
     if (one_of({"sivid/", "boost/"})) return true;
     if (one_of({"nlohmann/"})) return floor == "io" || floor == "report";
-    if (one_of({"fmt/"})) return floor == "number" && file == "format.hpp";
     if (one_of({"mpi.h"})) return floor == "cluster";
     if (one_of({"tbb/", "oneapi/"})) return floor == "parallel";
     if (name.find('/') != std::string_view::npos)
