@@ -119,8 +119,8 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
 /// are standard: who does not know them passes them over.
 inline std::string_view compiler_word(std::string const& line, std::string_view name) {
     static std::set<std::string_view> const apart{
-        "machine.hpp",     "vectors.hpp",         "wide_integer.hpp", "rounding.hpp",
-        "pack_target.hpp", "pack_avx512.hpp"};
+        "machine.hpp",     "vectors.hpp",         "integers.hpp", "rounding.hpp",
+        "pack_target.hpp", "pack_arithmetic.hpp"};
     if (starts_with(name, "sivid/number/") && apart.count(name.substr(name.rfind('/') + 1)) > 0)
         return {};
     auto const code = line.substr(0, line.find("//"));

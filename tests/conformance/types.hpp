@@ -8,7 +8,6 @@
 #include "support/pack_functions.hpp"
 
 #if defined(SIVID_HAS_MPFI)
-#include <sivid/number/mp_functions.hpp>
 #include <sivid/number/mp_interval.hpp>
 #define SIVID_MULTIPRECISION_TYPES , sivid::mp_interval
 #define SIVID_PROVEN_TYPES , sivid::proven_interval

@@ -8,7 +8,7 @@
 #include <sivid/number/traits_by_bounds.hpp>
 
 #ifdef SIVID_HAS_MPFI
-#include <sivid/number/mp_functions.hpp>
+#include <sivid/number/mp_interval.hpp>
 #endif
 
 #include "../../examples/custom_interval/middle_radius.hpp"

@@ -9,9 +9,8 @@
 /// everywhere must look. "Max excess" counts the floats by which a bound may lie beyond the
 /// tightest one.
 
-#include <sivid/number/arithmetic.hpp>
 #include <sivid/number/elementary/detail/functions_at.hpp>
-#include <sivid/number/elementary/detail/wide_integer.hpp>
+#include <sivid/number/elementary/detail/integers.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/rounding.hpp>
 

@@ -3,13 +3,13 @@
 #define SIVID_NUMBER_GUARD_HPP
 
 /// @file
-/// Refuses builds (detail/refused_flags.hpp) and machines on which interval arithmetic would not
+/// Refuses builds (rounding/detail/machine.hpp) and machines on which interval arithmetic would not
 /// prove anything.
 
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/pack/detail/pack_target.hpp>
 #include <sivid/number/rounding.hpp>
-#include <sivid/number/rounding/detail/refused_flags.hpp>
+#include <sivid/number/rounding/detail/machine.hpp>
 
 #include <bit>
 #include <cstdint>

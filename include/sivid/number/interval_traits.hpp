@@ -10,7 +10,6 @@
 /// are doubles, or can be given as such, derives its specialisation from `traits_by_bounds` and
 /// replaces what it does better.
 
-#include <sivid/number/arithmetic.hpp>
 #include <sivid/number/elementary.hpp>
 #include <sivid/number/interval.hpp>
 

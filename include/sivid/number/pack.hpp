@@ -20,9 +20,9 @@
 /// off: `require_sound_environment` rejects them at the entry of a solver.
 
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/number/pack/detail/pack_avx512.hpp>
+#include <sivid/number/pack/detail/pack_arithmetic.hpp>
 #include <sivid/number/pack/detail/pack_kernels.hpp>
-#include <sivid/number/rounding/detail/refused_flags.hpp>
+#include <sivid/number/rounding/detail/machine.hpp>
 
 #include <array>
 #include <cstddef>

@@ -8,8 +8,8 @@
 
 #include <sivid/number/guard.hpp>
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/number/pack/detail/known_values.hpp>
 #include <sivid/number/pack.hpp>
+#include <sivid/number/pack/detail/known_values.hpp>
 
 #include <cstddef>
 

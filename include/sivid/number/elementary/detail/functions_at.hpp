@@ -9,7 +9,7 @@
 /// (docs/pack_functions.md, section 11). All are given round-to-nearest; what is known of a
 /// function at particular numbers is the caller's part.
 
-#include <sivid/number/elementary/detail/integer_functions.hpp>
+#include <sivid/number/elementary/detail/integers.hpp>
 #include <sivid/number/pack/detail/pack_kernels.hpp>
 #include <sivid/number/rounding.hpp>
 
