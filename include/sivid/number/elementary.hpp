@@ -311,7 +311,9 @@ inline interval nearest_pow(interval const& x, interval const& y, bool& cut) noe
             bounds_at const p = power_at(s, t);
             lo = p.lower < lo ? p.lower : lo;
             hi = p.upper > hi ? p.upper : hi;
+            if (is_point(y)) break;
         }
+        if (is_point(x)) break;
     }
     if (lo < 0.0) lo = 0.0;
     // Powers that cannot cross 1.

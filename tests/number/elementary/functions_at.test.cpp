@@ -14,6 +14,7 @@ using sivid::detail::bounds_at;
 using sivid::detail::direction;
 using sivid::detail::full_product;
 using sivid::detail::high_product;
+using sivid::detail::product_by_halves;
 using sivid::detail::quotient;
 using sivid::detail::signed_two_words;
 using sivid::detail::two_words;
@@ -259,6 +260,7 @@ TEST_CASE("integers of two words are those of 128 bits") {
         REQUIRE((a < b) == (unsigned_of(a) < unsigned_of(b)));
         REQUIRE(unsigned_of(full_product(a.low, b.low)) ==
                 static_cast<wide_unsigned>(a.low) * b.low);
+        REQUIRE(full_product(a.low, b.low) == product_by_halves(a.low, b.low));
         std::uint64_t const divisor = (b.low >> 1) + 1;
         REQUIRE(unsigned_of(quotient(a, divisor)) == unsigned_of(a) / divisor);
         // The upper half of a product by its four parts, another way round.

@@ -49,13 +49,23 @@ struct two_words {
 }
 
 /// a b.
-[[nodiscard]] constexpr two_words full_product(std::uint64_t a, std::uint64_t b) noexcept {
+[[nodiscard]] constexpr two_words product_by_halves(std::uint64_t a, std::uint64_t b) noexcept {
     constexpr std::uint64_t half = 0xffff'ffff;
     std::uint64_t const ll = (a & half) * (b & half), lh = (a & half) * (b >> 32),
                         hl = (a >> 32) * (b & half);
     std::uint64_t const middle = (ll >> 32) + (lh & half) + (hl & half);
     return {(a >> 32) * (b >> 32) + (lh >> 32) + (hl >> 32) + (middle >> 32),
             middle << 32 | (ll & half)};
+}
+
+[[nodiscard]] constexpr two_words full_product(std::uint64_t a, std::uint64_t b) noexcept {
+#if defined(__SIZEOF_INT128__)
+    __extension__ using wide = unsigned __int128;
+    wide const p = static_cast<wide>(a) * b;
+    return {static_cast<std::uint64_t>(p >> 64), static_cast<std::uint64_t>(p)};
+#else
+    return product_by_halves(a, b);
+#endif
 }
 
 /// floor(a b / 2^128).
@@ -150,10 +160,10 @@ using wide_integer = signed_two_words;
 
 } // namespace sivid::detail
 
-// ---- What is done in integers alone, so that no rounding mode, flag or library has a part in it: any
-// double reduced modulo quarter turns, beyond the limit of the kernels of sin, cos and tan; powers
-// with whole exponents; and x^y = 2^(y log2 x). Numbers are non-negative and cut off, so that
-// errors have one sign; they are counted in units of the last place (docs/pack_functions.md,
+// ---- What is done in integers alone, so that no rounding mode, flag or library has a part in it:
+// any double reduced modulo quarter turns, beyond the limit of the kernels of sin, cos and tan;
+// powers with whole exponents; and x^y = 2^(y log2 x). Numbers are non-negative and cut off, so
+// that errors have one sign; they are counted in units of the last place (docs/pack_functions.md,
 // section 11).
 
 namespace sivid::detail::integers {
