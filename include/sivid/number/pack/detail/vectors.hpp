@@ -94,6 +94,9 @@ struct one_double {
     friend constexpr one_mask operator==(one_double a, one_double b) noexcept {
         return a.value == b.value ? -1 : 0;
     }
+    friend constexpr one_mask operator!=(one_double a, one_double b) noexcept {
+        return a.value != b.value ? -1 : 0;
+    }
 };
 
 /// N doubles, and as many words.
@@ -381,7 +384,7 @@ public:
     friend mask operator>=(vector a, vector b) noexcept { return b <= a; }
     friend mask operator==(vector a, vector b) noexcept { return mask_of(a.v_ == b.v_); }
     friend mask unordered(vector a, vector b) noexcept {
-        return !(mask_of(a.v_ == a.v_) & mask_of(b.v_ == b.v_));
+        return mask_of(a.v_ != a.v_) | mask_of(b.v_ != b.v_);
     }
     friend vector select(mask m, vector yes, vector no) noexcept {
 #if SIVID_VECTOR_EXTENSION && SIVID_PACK_AVX2
