@@ -6,6 +6,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/decision/motion/detail/motion_cover.hpp>
+#include <sivid/decision/motion/detail/open_parts.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/work_limit.hpp>
@@ -18,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -61,7 +63,7 @@ public:
         sharpen();
         collect(result);
         result.parts = parts_.size();
-        result.integrations = cover_->integrations();
+        result.integrations = integrations_ + cover_->integrations();
         result.seconds = clock.spent();
         return result;
     }
@@ -120,6 +122,7 @@ private:
     /// Parts that were not carried to the end, or lost too much, are halved and integrated anew.
     void finish_parts() {
         while (going()) {
+            refine_grid();
             std::vector<item*> short_of;
             for (auto& i : parts_) {
                 if (!i.settled && !i.what.known->complete) short_of.push_back(&i);
@@ -130,13 +133,37 @@ private:
             for (auto* i : short_of) {
                 // A hundred-thousandth of the whole that gets no further will not by halving.
                 bool const tiny = cover_->widest_share(i->what) < 1e-5;
-                auto const moved = cover_->moved_by_sides(i->what, i->seen);
+                auto const moved = cover_->lost_by_sides(i->what, i->seen);
                 auto const halves = replace(i, tiny ? std::vector<motion_cover::part>{}
                                                     : cover_->split_by(moved, i->what));
                 if (halves.empty()) i->settled = true;
                 next.insert(next.end(), halves.begin(), halves.end());
             }
             if (!next.empty()) learn(next);
+        }
+    }
+
+    /// Cells that are too long for bounds in between, although both ends are known, are cut in
+    /// four: no smaller box helps where a motion is quick.
+    void refine_grid() {
+        for (; refinements_ < 6 && limit_(); ++refinements_) {
+            std::set<std::size_t> cells;
+            for (auto const& i : parts_) {
+                auto const& known = *i.what.known;
+                if (known.reached < cover_->times().size()) continue;
+                for (std::size_t c = 0; c < known.courses.size(); ++c)
+                    if (known.courses[c].empty()) cells.insert(c);
+            }
+            if (cells.empty()) return;
+            integrations_ += cover_->integrations();
+            auto times = finer_grid(cover_->times(), cells);
+            cover_.emplace(problem_, outputs_, std::move(times), options_.run);
+            std::vector<item*> all;
+            for (auto& i : parts_) {
+                i.what.known = nullptr;
+                all.push_back(&i);
+            }
+            learn(all);
         }
     }
 
@@ -357,6 +384,8 @@ private:
     std::optional<motion_cover> cover_;
     items parts_;
     bool oblique_ = false;
+    int refinements_ = 0;          ///< of the grid
+    std::size_t integrations_ = 0; ///< over coarser ones
 };
 
 } // namespace decision_detail

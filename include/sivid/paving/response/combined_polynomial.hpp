@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    using powers = std::vector<std::uint8_t>;
+    using powers = std::vector<std::uint16_t>; // of bytes, g++ 12 warns of a comparison
 
     void add_term(powers e, interval const& c) {
         auto const [known_term, is_new] = terms_.emplace(std::move(e), c);
@@ -132,7 +132,7 @@ private:
                 total = traits::add(total, c);
                 continue;
             }
-            auto const is_used = [](std::uint8_t k) { return k > 0; };
+            auto const is_used = [](std::uint16_t k) { return k > 0; };
             auto const u =
                 static_cast<std::size_t>(std::find_if(e.begin(), e.end(), is_used) - e.begin());
             if (degree == 1) {

@@ -259,7 +259,7 @@ private:
                                                    motion_cover::part const& p) {
         auto const v = m.cover.look(p, true);
         if (!p.known->complete && v.reached < m.cover.times().size())
-            return m.cover.moved_by_sides(p, v);
+            return m.cover.lost_by_sides(p, v);
         return m.cover.curved_by_sides(p, v);
     }
     void halve(std::size_t index) {

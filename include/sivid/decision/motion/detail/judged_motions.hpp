@@ -202,7 +202,7 @@ private:
     void weigh(motion_cover::part const& p, motion_cover::view const& v, judgement& result) const {
         if (v.reached < cover_.times().size()) {
             result.worn = true;
-            result.score = cover_.moved_by_sides(p, v);
+            result.score = cover_.lost_by_sides(p, v);
             return;
         }
         auto const m = cover_.outputs();

@@ -98,9 +98,11 @@ public:
     }
     /// The variable of a side in what is known of a part; nothing for a side without width.
     [[nodiscard]] std::size_t variable_of(part const& p, std::size_t side) const;
-    /// How far each side moves the states at the last instant that was reached, against their own
-    /// ranges: what to halve where a part gets no further. Empty when nothing was reached.
-    [[nodiscard]] std::vector<double> moved_by_sides(part const& p, view const& v) const;
+    /// By how much halving each side shortens the terms of highest degree of the states at the last
+    /// instant that was reached, each against its own range: those that are cut off, of one degree
+    /// more, shrink alike. The side of the greatest is halved where a part gets no further. Empty
+    /// when nothing was reached.
+    [[nodiscard]] std::vector<double> lost_by_sides(part const& p, view const& v) const;
     /// The share of each side in all rests; 0 where it cannot be cut.
     [[nodiscard]] std::vector<double> curved_by_sides(part const& p, view const& v) const;
     /// The side of the greatest score above 0, or none.

@@ -87,8 +87,12 @@ SIVID_DECL void motion_cover::learn(std::vector<part*> const& parts) {
         bool const points = std::all_of(parameters.begin(), parameters.end(), [&](box const& p) {
             return normalised_unknowns(initial, p).variables == 0;
         });
-        if (points && !points_)
-            points_ = make_run(flow_, experiment_, samples_, initial, parameters.front(), options_);
+        if (points && !points_) {
+            auto options = options_;
+            // A box that creeps is halved; a point that creeps is stiff, and goes on.
+            options.minimum_step = std::min(options.minimum_step, enclosure_options{}.minimum_step);
+            points_ = make_run(flow_, experiment_, samples_, initial, parameters.front(), options);
+        }
         auto const answers = (*(points ? points_ : run_))(initial, parameters);
         integrations_ += parameters.size();
         for (std::size_t k = 0; k < group.size(); ++k) {
@@ -242,19 +246,32 @@ SIVID_DECL std::size_t motion_cover::variable_of(part const& p, std::size_t side
     return s.radius > 0 ? s.variable : none;
 }
 
-SIVID_DECL std::vector<double> motion_cover::moved_by_sides(part const& p, view const& v) const {
+SIVID_DECL std::vector<double> motion_cover::lost_by_sides(part const& p, view const& v) const {
     if (v.reached == 0) return {};
-    auto const count = v.low.size();
+    auto const& known = *p.known->answer;
+    auto const& table = *known.table;
     auto const at = (v.reached - 1) * flow_.channels();
-    std::vector<double> moved(sides(), 0.0);
+    std::vector<double> by_variable(table.variables, 0.0);
+    std::size_t degree = 0;
+    for (std::size_t m = table.size(); m-- > 1;) { // by degree, from the highest
+        auto const& e = table.exponents[m];
+        auto const own = std::accumulate(e.begin(), e.end(), std::size_t{0});
+        if (degree > 0 && own < degree) break;
+        double size = 0;
+        for (std::size_t i = 0; i < flow_.states(); ++i)
+            size += std::abs(known.coefficients[m * known.outputs() + at + i]) /
+                    flow_.model().about.states[i].limit;
+        if (!(size > 0)) continue;
+        degree = own;
+        for (std::size_t q = 0; q < table.variables; ++q)
+            by_variable[q] += size * (1 - std::ldexp(1.0, -e[q]));
+    }
+    std::vector<double> lost(sides(), 0.0);
     for (std::size_t side = 0; side < sides(); ++side) {
         auto const q = variable_of(p, side);
-        if (q == none) continue; // slopes are in widths of the part: what was halved moves less
-        for (std::size_t i = 0; i < flow_.states(); ++i)
-            moved[side] +=
-                std::abs(v.slope[q * count + at + i]) / flow_.model().about.states[i].limit;
+        if (q != none && share(p, side) > 0) lost[side] = by_variable[q];
     }
-    return moved;
+    return lost;
 }
 
 SIVID_DECL std::vector<double> motion_cover::curved_by_sides(part const& p, view const& v) const {
