@@ -320,8 +320,7 @@ private:
 };
 
 /// N doubles. Operations round as the control register says; the directed operations
-/// (pack_arithmetic.hpp) prove their bounds in every mode of it. AVX-512 has its
-/// own there.
+/// (pack_arithmetic.hpp) prove their bounds in every mode of it. AVX-512 has its own there.
 template <std::size_t N>
 class vector {
     static_assert(N == 1 || N <= lanes_detail::per_vector);
