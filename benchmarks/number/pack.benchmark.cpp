@@ -5,7 +5,7 @@
 // anything else. Counters: ns and core cycles an interval; the core's clock is measured beside it.
 // At the end everything side by side, with the goals of the project.
 #include <sivid/number/guard.hpp>
-#include <sivid/number/pack_functions.hpp>
+#include "support/pack_functions.hpp"
 
 #include <benchmark/benchmark.h>
 #include <boost/numeric/interval.hpp>

@@ -9,7 +9,7 @@
 #include <sivid/io/scenario.hpp>
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/number/few_digits.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,28 +5,18 @@
 #define SIVID_SIVID_HPP
 
 // clang-format off
-#include <sivid/number/arithmetic.hpp>
 #include <sivid/number/boost_interval.hpp>
-#include <sivid/number/cancellation.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/elementary.hpp>
-#include <sivid/number/elementary/exponential.hpp>
-#include <sivid/number/few_digits.hpp>
 #include <sivid/number/guard.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/pack.hpp>
 #include <sivid/number/pack/lanes.hpp>
-#include <sivid/number/pack_functions.hpp>
-#include <sivid/number/pack_traits.hpp>
 #include <sivid/number/polynomial/monomial_space.hpp>
-#include <sivid/number/polynomial/monomials.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>
-#include <sivid/number/polynomial/univariate_taylor.hpp>
-#include <sivid/number/relations.hpp>
 #include <sivid/number/rounding.hpp>
-#include <sivid/number/stream.hpp>
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
@@ -37,7 +27,6 @@
 #include <sivid/space/box_cover.hpp>
 #include <sivid/space/box_lanes.hpp>
 #include <sivid/space/dense.hpp>
-#include <sivid/space/eigen_support.hpp>
 #include <sivid/space/exact/integer_span.hpp>
 #include <sivid/space/frame/orthogonal_frame.hpp>
 #include <sivid/space/linear_program/constraint_blocks.hpp>

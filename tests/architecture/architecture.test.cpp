@@ -241,7 +241,6 @@ TEST_CASE("packages are kept to the floors that may use them") {
     }
     CHECK(package_allowed("nlohmann/json.hpp", "io", "json.hpp"));
     CHECK(package_allowed("mpfr.h", "number", "mpfr_oracle.hpp"));
-    CHECK(package_allowed("fmt/format.h", "number", "format.hpp"));
     CHECK(package_allowed("tbb/parallel_for.h", "parallel", "threads.hpp"));
     CHECK_FALSE(package_allowed("tbb/parallel_for.h", "io", "json.hpp"));
     CHECK(package_allowed("boost/mpi/communicator.hpp", "cluster", "mpi_world.hpp"));

@@ -99,10 +99,9 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
                 "boost/iostreams", "boost/log"}))
         return false;       // these need compiled libraries
     if (one_of({"Eigen/"})) // decompositions cost seconds, and stand behind one header
-        return name == "Eigen/Core" || file == "dense.ipp" || file == "eigen_support.hpp";
+        return name == "Eigen/Core" || file == "dense.ipp";
     if (one_of({"sivid/", "boost/"})) return true;
     if (one_of({"nlohmann/"})) return floor == "io" || floor == "report";
-    if (one_of({"fmt/"})) return floor == "number" && file == "format.hpp";
     if (one_of({"mpi.h"})) return floor == "cluster";
     if (one_of({"matio.h"})) return file == "matlab_reader.hpp";
     if (one_of({"zlib.h"})) return file == "whole_level5.hpp";
@@ -122,9 +121,8 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
 /// are standard: who does not know them passes them over.
 inline std::string_view compiler_word(std::string const& line, std::string_view name) {
     static std::set<std::string_view> const apart{
-        "machine.hpp",     "vectors.hpp",         "wide_integer.hpp", "rounding.hpp",
-        "pack_target.hpp", "pack_elementary.hpp", "pack_avx2.hpp",    "pack_avx512.hpp",
-        "pack_sse2.hpp",   "pack_neon.hpp"};
+        "machine.hpp",     "vectors.hpp",         "integers.hpp", "rounding.hpp",
+        "pack_target.hpp", "pack_arithmetic.hpp"};
     if (starts_with(name, "sivid/number/") && apart.count(name.substr(name.rfind('/') + 1)) > 0)
         return {};
     auto const code = line.substr(0, line.find("//"));

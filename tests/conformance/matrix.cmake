@@ -103,7 +103,7 @@ foreach(compiler IN LISTS COMPILERS)
 
                 set(literal_sources ${parts})
                 literals(interval sivid::interval sivid/number/interval_traits.hpp)
-                literals(pack8 "sivid::pack<8>" sivid/number/pack_functions.hpp)
+                literals(pack8 "sivid::pack<8>" support/pack_functions.hpp)
                 set(literal_sources "${LITERALS}_one_main.cpp" "${LITERALS}_one_0.cpp")
                 literals(mp_interval sivid::mp_interval sivid/number/mp_interval.hpp -DSIVID_LITERAL_CALLS)
 

@@ -4,7 +4,6 @@
 #ifndef SIVID_TESTS_CONFORMANCE_OPERATIONS_HPP
 #define SIVID_TESTS_CONFORMANCE_OPERATIONS_HPP
 
-#include <sivid/number/cancellation.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include "support/further_functions.hpp"
@@ -165,18 +164,6 @@ struct operations {
         else
             return t::entire();
     }
-    static I cancelminus(I const& a, I const& b) {
-        if constexpr (std::same_as<I, sivid::interval>)
-            return sivid::cancel_minus(a, b);
-        else
-            return t::entire();
-    }
-    static I cancelplus(I const& a, I const& b) {
-        if constexpr (std::same_as<I, sivid::interval>)
-            return sivid::cancel_plus(a, b);
-        else
-            return t::entire();
-    }
     // Operators, of a type that has them and knows the empty set.
     static constexpr bool has_operators = requires(I const& a) { a + a; }
     &&!requires(I const& a) { t::to_interval(a); };
@@ -222,8 +209,6 @@ inline bool is_tight(std::string const& name) {
 /// type (bounds of more digits are read outward in double), everything where MPFR computes.
 template <class I>
 bool must_be_tight(std::string const& name) {
-    if (name == "cancelminus" || name == "cancelplus")
-        return std::same_as<I, sivid::interval>; // the only type that has them
     if (name == "fma") return false;
     return is_tight(name) || requires(I const& a) { sivid::interval_traits<I>::to_interval(a); };
 }

@@ -5,10 +5,9 @@
 #define SIVID_TESTS_CONFORMANCE_TYPES_HPP
 
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/number/pack_functions.hpp>
+#include "support/pack_functions.hpp"
 
 #if defined(SIVID_HAS_MPFI)
-#include <sivid/number/mp_functions.hpp>
 #include <sivid/number/mp_interval.hpp>
 #define SIVID_MULTIPRECISION_TYPES , sivid::mp_interval
 #define SIVID_PROVEN_TYPES , sivid::proven_interval

@@ -63,18 +63,12 @@ unary_table<I> unary_operations() {
 template <class I>
 binary_table<I> binary_operations() {
     using o = operations<I>;
-    return {{"add", o::add},
-            {"sub", o::sub},
-            {"mul", o::mul},
-            {"div", o::div},
-            {"min", o::min},
-            {"max", o::max},
-            {"pow", o::pow},
-            {"hull", o::hull},
-            {"intersection", o::intersection},
-            {"atan2", o::atan2},
-            {"cancelminus", o::cancelminus},
-            {"cancelplus", o::cancelplus}};
+    return {
+        {"add", o::add},     {"sub", o::sub},   {"mul", o::mul},
+        {"div", o::div},     {"min", o::min},   {"max", o::max},
+        {"pow", o::pow},     {"hull", o::hull}, {"intersection", o::intersection},
+        {"atan2", o::atan2},
+    };
 }
 
 /// Runs the lines whose result is an interval; tight results where `must_be_tight`.

@@ -3,8 +3,6 @@
 #include "conformance/types.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/number/relations.hpp>
-
 #include <concepts>
 #include <functional>
 #include <map>
@@ -110,10 +108,6 @@ TEST_CASE("vectors: numbers and relations of the vocabulary type") {
         {"subset", [](interval a, interval b) { return sivid::subset(a, b); }},
         {"interior", [](interval a, interval b) { return sivid::interior(a, b); }},
         {"equal", [](interval a, interval b) { return sivid::equal(a, b); }},
-        {"less", [](interval a, interval b) { return sivid::less(a, b); }},
-        {"strictless", [](interval a, interval b) { return sivid::strict_less(a, b); }},
-        {"precedes", [](interval a, interval b) { return sivid::precedes(a, b); }},
-        {"strictprecedes", [](interval a, interval b) { return sivid::strict_precedes(a, b); }},
         {"disjoint", [](interval a, interval b) { return sivid::disjoint(a, b); }}};
     std::map<std::string, std::function<bool(interval)>> const predicates{
         {"isempty", [](interval x) { return sivid::is_empty(x); }},
@@ -140,19 +134,19 @@ TEST_CASE("vectors: numbers and relations of the vocabulary type") {
         }
         ++run;
     }
-    CHECK(run > 200);
+    CHECK(run > 150);
 }
 
 TEST_CASE("vectors: every operation of the files is known") {
     // A vector of an operation without a name here would be passed over in silence.
     auto const unary = conformance::unary_operations<interval>();
     auto const binary = conformance::binary_operations<interval>();
-    std::set<std::string> const others{"fma",      "pown",       "inf",      "sup",
-                                       "width",    "mid",        "rad",      "mag",
-                                       "mig",      "subset",     "interior", "equal",
-                                       "less",     "strictless", "precedes", "strictprecedes",
-                                       "disjoint", "isempty",    "isentire", "issingleton",
-                                       "iscommon", "ismember"};
+    // Cancellation and the order relations are not offered.
+    std::set<std::string> const others{
+        "cancelminus", "cancelplus", "fma",      "pown",        "inf",      "sup",
+        "width",       "mid",        "rad",      "mag",         "mig",      "subset",
+        "interior",    "equal",      "less",     "strictless",  "precedes", "strictprecedes",
+        "disjoint",    "isempty",    "isentire", "issingleton", "iscommon", "ismember"};
     for (auto const& line : all_vectors()) {
         INFO(line.text);
         CHECK((unary.contains(line.operation) || binary.contains(line.operation) ||

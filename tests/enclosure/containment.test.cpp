@@ -16,7 +16,6 @@
 #include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/tube.hpp>
 #if defined(SIVID_HAS_MPFI)
-#include <sivid/number/mp_functions.hpp>
 #include <sivid/number/mp_interval.hpp>
 #endif
 

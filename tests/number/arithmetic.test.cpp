@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/arithmetic.hpp>
+#include <sivid/number/interval.hpp>
 
 #include "laws/containment.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/few_digits.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

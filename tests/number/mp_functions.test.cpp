@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #if defined(SIVID_HAS_MPFI)
 
-#include <sivid/number/mp_functions.hpp>
+#include <sivid/number/mp_interval.hpp>
 
 #include <sivid/number/elementary.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/pack_functions.hpp>
+#include "support/pack_functions.hpp"
 
 #include "number/pack_bounds.hpp"
 #include "support/catch.hpp"

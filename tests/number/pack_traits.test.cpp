@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 
 #include "support/catch.hpp"
 

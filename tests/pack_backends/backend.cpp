@@ -7,7 +7,7 @@
 #include "laws/laws.hpp"
 #include "pack_backends/kernel_errors.hpp"
 
-#include <sivid/number/pack_functions.hpp>
+#include "support/pack_functions.hpp"
 
 #include <bit>
 #include <cfenv>

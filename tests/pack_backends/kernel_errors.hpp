@@ -7,7 +7,7 @@
 
 #include "support/oracle.hpp"
 
-#include <sivid/number/pack_functions.hpp>
+#include "support/pack_functions.hpp"
 
 #include <array>
 #include <cmath>

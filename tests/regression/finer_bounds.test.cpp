@@ -8,7 +8,6 @@
 #include "support/models.hpp"
 
 #ifdef SIVID_HAS_MPFI
-#include <sivid/number/mp_functions.hpp>
 #include <sivid/number/mp_interval.hpp>
 
 namespace {

@@ -4,7 +4,7 @@
 // functions clear both for their duration.
 #include <sivid/number/guard.hpp>
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 
 #include "support/catch.hpp"
 #include "support/flushing.hpp"

@@ -6,7 +6,7 @@
 // optimisation by link_time_optimisation.cmake.
 #include <sivid/number/guard.hpp>
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 
 #include <cmath>
 #include <cstdio>

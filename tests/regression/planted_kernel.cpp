@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A kernel that is broken, as a compiler might: every solver has to refuse.
+// A kernel of the library that is broken, as a compiler might: every solver has to refuse.
 #include <sivid/number/pack.hpp>
-#include <sivid/number/pack/detail/pack_elementary.hpp>
+
 
 namespace sivid::simd {
 template <>
-bounds<vector_portable> sin(bounds<vector_portable> const& x) noexcept {
+bounds<vector<1>> sin(bounds<vector<1>> const& x) noexcept {
     return cos(x);
 }
 } // namespace sivid::simd
 
-#include <sivid/number/guard.hpp>
+#include <sivid/impl/library.ipp>
+#include <sivid/number/impl/guard.ipp>
 
 #include <cstdio>
 #include <string>

@@ -2,7 +2,7 @@
 #include <sivid/space/box_lanes.hpp>
 
 #include <sivid/number/mp_interval.hpp>
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 
 #include "support/catch.hpp"
 #include "support/models.hpp"

@@ -4,11 +4,11 @@
 #define SIVID_TESTS_SUPPORT_INTERVAL_TYPES_HPP
 
 #include <sivid/number/boost_interval.hpp>
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 #include <sivid/number/traits_by_bounds.hpp>
 
 #ifdef SIVID_HAS_MPFI
-#include <sivid/number/mp_functions.hpp>
+#include <sivid/number/mp_interval.hpp>
 #endif
 
 #include "../../examples/custom_interval/middle_radius.hpp"

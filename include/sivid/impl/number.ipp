@@ -4,9 +4,8 @@
 
 #include <sivid/number/impl/decimal.ipp>
 #include <sivid/number/impl/decimal_output.ipp>
-#include <sivid/number/pack/impl/kernel_trial.ipp>
+#include <sivid/number/impl/guard.ipp>
 #include <sivid/number/polynomial/detail/model_shape.hpp>
-#include <sivid/number/text/impl/decimal_text.ipp>
 
 #include <cstddef>
 

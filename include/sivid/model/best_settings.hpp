@@ -3,7 +3,7 @@
 #define SIVID_MODEL_BEST_SETTINGS_HPP
 
 #include <sivid/model/manoeuvre.hpp>
-#include <sivid/number/few_digits.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,13 +3,13 @@
 #define SIVID_NUMBER_GUARD_HPP
 
 /// @file
-/// Refuses builds (detail/refused_flags.hpp) and machines on which interval arithmetic would not
+/// Refuses builds (rounding/detail/machine.hpp) and machines on which interval arithmetic would not
 /// prove anything.
 
-#include <sivid/number/pack/detail/kernel_trial.hpp>
+#include <sivid/number/interval_traits.hpp>
 #include <sivid/number/pack/detail/pack_target.hpp>
 #include <sivid/number/rounding.hpp>
-#include <sivid/number/rounding/detail/refused_flags.hpp>
+#include <sivid/number/rounding/detail/machine.hpp>
 
 #include <bit>
 #include <cstdint>
@@ -17,6 +17,56 @@
 #include <string>
 
 namespace sivid {
+inline namespace SIVID_PACK_TARGET {
+
+/// A function that missed a known value: of which type, and which function; null where all hold.
+struct broken_kernel {
+    char const* type = nullptr;
+    char const* function = nullptr;
+};
+
+/// The first of + - * / of the traits T that misses a known value: the result is no double, and
+/// both its neighbours are to be enclosed. Null where all hold.
+template <class T>
+[[nodiscard]] char const* first_broken_operation() noexcept {
+    struct known {
+        double x, y;
+        double sum, difference, product, quotient; // the greatest doubles below, by MPFR
+    };
+    constexpr known points[] = {{-3.7, 0.7, -0x1.8000000000001p+1, -0x1.199999999999ap+2,
+                                 -0x1.4b851eb851eb9p+1, -0x1.524924924924ap+2},
+                                {0.6, 3.1, 0x1.d999999999999p+1, -0x1.4000000000001p+1,
+                                 0x1.dc28f5c28f5c2p+0, 0x1.8c6318c6318c5p-3},
+                                {2.57, 7.39, 0x1.3eb851eb851ebp+3, -0x1.347ae147ae148p+2,
+                                 0x1.2fe075f6fd21fp+4, 0x1.641d1949c9443p-2}};
+    auto const holds = [](auto const& z, double below) {
+        return T::lower(z) <= below && detail::next_up(below) <= T::upper(z);
+    };
+    for (known const& k : points) {
+        auto const x = T::point(detail::opaque(k.x)), y = T::point(detail::opaque(k.y));
+        typename T::mask undefined{};
+        if (!holds(T::add(x, y), k.sum)) return "add";
+        if (!holds(T::sub(x, y), k.difference)) return "sub";
+        if (!holds(T::mul(x, y), k.product)) return "mul";
+        if (!holds(T::div(x, y, undefined), k.quotient)) return "div";
+    }
+    return nullptr;
+}
+
+#ifdef SIVID_COMPILED
+/// The first function of `interval`, and of packs by each vector that they are made of, that misses
+/// a known value. Only the library tries them all, once in a process (less than a millisecond).
+/// @given  what `require_sound_environment` demands of the machine
+[[nodiscard]] broken_kernel first_broken_kernel() noexcept;
+#else
+/// The same of + - * / of `interval`: more would compile functions that a program does not call.
+[[nodiscard]] inline broken_kernel first_broken_kernel() noexcept {
+    static char const* const found = first_broken_operation<interval_traits<interval>>();
+    return found == nullptr ? broken_kernel{} : broken_kernel{"interval", found};
+}
+#endif
+
+} // namespace SIVID_PACK_TARGET
 
 namespace detail {
 
@@ -48,7 +98,8 @@ inline void require_unbroken(broken_kernel const& k) {
 /// @guarantee  on return: the machine has the instructions that this file was compiled for (as far
 ///             as packs use them), round-to-nearest is set, subnormals are neither flushed nor read
 ///             as zero, directed rounding works in each way that sivid uses, plain arithmetic is
-///             not rearranged, and the kernels of `interval` and packs enclose known values
+///             not rearranged, and + - * / of `interval` enclose known values (with
+///             `sivid::compiled`: all functions of `interval` and packs)
 /// @throws     unsound_environment with the reason otherwise (for instance under valgrind, which
 ///             ignores the rounding mode, or in a program linked with -ffast-math)
 /// @cost       about 50 ns; less than a millisecond the first time in a process

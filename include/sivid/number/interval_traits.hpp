@@ -10,7 +10,6 @@
 /// are doubles, or can be given as such, derives its specialisation from `traits_by_bounds` and
 /// replaces what it does better.
 
-#include <sivid/number/arithmetic.hpp>
 #include <sivid/number/elementary.hpp>
 #include <sivid/number/interval.hpp>
 
@@ -60,8 +59,8 @@ concept interval_scalar = std::copyable<I> &&
     { interval_traits<I>::sign(a) } -> std::same_as<I>;
 };
 
-/// The vocabulary type: tight for + - * / sqr sqrt min max hull intersect; elementary functions
-/// widen the C library's results by `excess` floats. Independent of the caller's rounding mode.
+/// The vocabulary type: tight for + - * / sqr sqrt min max hull intersect; elementary functions are
+/// proved, and a few floats wide. Independent of the caller's rounding mode.
 template <>
 struct interval_traits<interval> {
     using mask = bool;
@@ -176,5 +175,24 @@ struct interval_traits<interval> {
 static_assert(interval_scalar<interval>);
 
 } // namespace sivid
+
+namespace sivid::number_detail {
+
+/// \f$ \{1 - \tanh^2 t : t \in x\} \f$. The difference is sharp over wide ranges, but far from 0,
+/// where tanh is 1 up to a rounding, all that is left of it is that rounding. There
+/// \f$ 4 e^{-2|t|} / (1 + e^{-2|t|})^2 \f$ keeps its digits: coefficients of series are slopes
+/// times powers of the argument's own rate, and those may be large.
+template <interval_scalar I>
+[[nodiscard]] I tanh_slope(I const& x) {
+    using traits = interval_traits<I>;
+    typename traits::mask never{}; // the divisor is at least 1
+    I const one = traits::point(1.0);
+    I const e = traits::exp(traits::mul(traits::point(-2.0), traits::abs(x)));
+    I const far =
+        traits::div(traits::mul(traits::point(4.0), e), traits::sqr(traits::add(one, e)), never);
+    return traits::intersect(traits::sub(one, traits::sqr(traits::tanh(x))), far);
+}
+
+} // namespace sivid::number_detail
 
 #endif

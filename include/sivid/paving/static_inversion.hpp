@@ -3,7 +3,7 @@
 #define SIVID_PAVING_STATIC_INVERSION_HPP
 
 #include <sivid/number/guard.hpp>
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 #include <sivid/paving/search/search_budget.hpp>
 #include <sivid/paving/static/detail/static_findings.hpp>
 #include <sivid/paving/static/detail/static_survey.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/elementary/exponential.hpp>
+#include <sivid/number/elementary.hpp>
 
 #include "number/support.hpp"
 

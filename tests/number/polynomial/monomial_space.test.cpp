@@ -2,7 +2,6 @@
 #include "support/catch.hpp"
 
 #include <sivid/number/polynomial/monomial_space.hpp>
-#include <sivid/number/polynomial/monomials.hpp>
 
 #include <cstddef>
 #include <set>

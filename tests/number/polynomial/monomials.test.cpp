@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
 
-#include <sivid/number/polynomial/monomials.hpp>
+#include <sivid/number/polynomial/monomial_space.hpp>
 
 #include <array>
 #include <cstddef>

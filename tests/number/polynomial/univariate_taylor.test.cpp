@@ -3,7 +3,7 @@
 #include "support/power_series.hpp"
 #include "support/random.hpp"
 
-#include <sivid/number/polynomial/univariate_taylor.hpp>
+#include <sivid/number/polynomial/taylor_model_functions.hpp>
 
 #include <array>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "support/interval_types.hpp"
 
 #ifdef SIVID_HAS_MPFI
-#include <sivid/number/mp_functions.hpp>
+#include <sivid/number/mp_interval.hpp>
 #endif
 
 using namespace sivid;

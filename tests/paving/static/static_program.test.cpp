@@ -4,7 +4,7 @@
 #include "paving/static_models.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 
 #include <array>
 #include <cstdint>

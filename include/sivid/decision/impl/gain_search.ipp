@@ -7,7 +7,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/decision/motion/detail/gain_test.hpp>
 #include <sivid/number/decimal.hpp>
-#include <sivid/number/few_digits.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/work_limit.hpp>
 

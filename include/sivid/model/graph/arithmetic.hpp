@@ -2,7 +2,6 @@
 #ifndef SIVID_MODEL_GRAPH_ARITHMETIC_HPP
 #define SIVID_MODEL_GRAPH_ARITHMETIC_HPP
 
-#include <sivid/number/elementary/detail/tanh_slope.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>

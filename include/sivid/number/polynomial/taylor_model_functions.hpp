@@ -2,9 +2,9 @@
 #ifndef SIVID_NUMBER_POLYNOMIAL_TAYLOR_MODEL_FUNCTIONS_HPP
 #define SIVID_NUMBER_POLYNOMIAL_TAYLOR_MODEL_FUNCTIONS_HPP
 
+#include <sivid/number/elementary.hpp>
+#include <sivid/number/interval_traits.hpp>
 #include <sivid/number/polynomial/detail/bernstein.hpp>
-#include <sivid/number/polynomial/detail/near_minimax.hpp>
-#include <sivid/number/polynomial/univariate_taylor.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,229 @@
 #include <cstddef>
 #include <limits>
 #include <utility>
+
+namespace sivid {
+
+/// Functions of one variable whose Taylor coefficients are known here.
+enum class univariate { exp, log, sin, cos, tan, atan, tanh, sech_squared, reciprocal, sqrt };
+
+/// Encloses \f$ f^{(k)}(x)/k! \f$ for k = 0 .. order at every x in the interval.
+/// @param y          gets the order + 1 enclosures
+/// @param undefined  set where f is not defined (or not smooth) on all of x
+/// @ref  recurrences as in Griewank and Walther 2008, table 13.2
+inline void taylor_coefficients(univariate f, interval const& x, std::size_t order, interval* y,
+                                bool& undefined) {
+    using T = interval_traits<interval>;
+    auto const number = [](std::size_t k) { return T::point(static_cast<double>(k)); };
+    auto const over = [&](interval const& a, std::size_t k) {
+        return T::div(a, number(k), undefined);
+    };
+    auto const square = [&](std::size_t k) { // coefficient k of y^2
+        interval sum = T::point(0.0);
+        for (std::size_t j = 0; j <= k; ++j) sum = T::add(sum, T::mul(y[j], y[k - j]));
+        return k == 0 ? T::sqr(y[0]) : sum;
+    };
+    switch (f) {
+    case univariate::exp:
+        y[0] = T::exp(x);
+        for (std::size_t k = 1; k <= order; ++k) y[k] = over(y[k - 1], k);
+        break;
+    case univariate::log: { // (-1)^(k+1) / (k x^k)
+        y[0] = T::log(x, undefined);
+        if (!(x.lower() > 0)) undefined = true;
+        interval power = T::point(-1.0);
+        for (std::size_t k = 1; k <= order; ++k) {
+            power = T::neg(T::div(power, x, undefined));
+            y[k] = over(power, k);
+        }
+        break;
+    }
+    case univariate::sin:
+    case univariate::cos:
+        y[0] = f == univariate::sin ? T::sin(x) : T::cos(x);
+        if (order >= 1) y[1] = f == univariate::sin ? T::cos(x) : T::neg(T::sin(x));
+        for (std::size_t k = 2; k <= order; ++k) y[k] = T::neg(over(y[k - 2], k * (k - 1)));
+        break;
+    case univariate::tan: // y' = 1 + y^2
+        y[0] = T::tan(x, undefined);
+        for (std::size_t k = 0; k < order; ++k) {
+            y[k + 1] = over(k == 0 ? T::add(T::point(1.0), square(k)) : square(k), k + 1);
+        }
+        break;
+    case univariate::tanh: // y' = 1 - y^2; all but the value have the slope as a factor
+        y[0] = T::tanh(x);
+        for (std::size_t k = 0; k < order; ++k) {
+            y[k + 1] = over(k == 0 ? number_detail::tanh_slope(x) : T::neg(square(k)), k + 1);
+        }
+        break;
+    case univariate::sech_squared: // 1 - tanh^2; each square needs the tangents before it alone
+        taylor_coefficients(univariate::tanh, x, order, y, undefined);
+        for (std::size_t k = order; k > 0; --k) y[k] = T::neg(square(k));
+        y[0] = number_detail::tanh_slope(x);
+        break;
+    case univariate::atan: { // y' (1 + x^2) = 1, with (1 + (x+s)^2) = w0 + 2 x s + s^2
+        y[0] = T::atan(x);
+        auto const w0 = T::add(T::point(1.0), T::sqr(x));
+        interval before = T::point(0.0), last = before; // y'_{k-2}, y'_{k-1}
+        for (std::size_t k = 0; k < order; ++k) { // z = y', z_k w0 = [k=0] - 2 x z_{k-1} - z_{k-2}
+            interval sum = T::point(k == 0 ? 1.0 : 0.0);
+            if (k >= 1) sum = T::sub(sum, T::mul(T::mul(number(2), x), last));
+            if (k >= 2) sum = T::sub(sum, before);
+            before = last;
+            last = T::div(sum, w0, undefined);
+            y[k + 1] = over(last, k + 1);
+        }
+        break;
+    }
+    case univariate::reciprocal: // (-1)^k / x^(k+1)
+        y[0] = T::div(T::point(1.0), x, undefined);
+        for (std::size_t k = 1; k <= order; ++k) y[k] = T::neg(T::mul(y[k - 1], y[0]));
+        break;
+    case univariate::sqrt: // y_k = y_{k-1} (3/2 - k) / (k x)
+        y[0] = T::sqrt(x, undefined);
+        for (std::size_t k = 1; k <= order; ++k) {
+            auto const factor = T::point(1.5 - static_cast<double>(k));
+            y[k] = over(T::div(T::mul(y[k - 1], factor), x, undefined), k);
+        }
+        break;
+    }
+}
+
+} // namespace sivid
+
+namespace sivid {
+
+/// Polynomials of at most this degree take the place of functions.
+inline constexpr std::size_t most_near_minimax_degree = 8;
+
+/// A polynomial close to a function on all of an interval, with a proved bound of what it is off.
+///   It interpolates f at Chebyshev's nodes, so its error is about \f$ 2^{-D} \f$ of that of a
+///   Taylor polynomial, and less where the Taylor series hardly converges. It is computed in
+///   doubles and only a proposal; on each of some pieces of the interval, with middle c and radius
+///   r, \f[ |f(x) - p(x)| \le \sum_{k \le D} |f^{[k]}(c) - p^{[k]}(c)| r^k + |f^{[D+1]}(piece)|
+///   r^{D+1} \f] with Taylor coefficients in interval arithmetic.
+/// @ref  L. N. Trefethen, Approximation Theory and Approximation Practice (2013), chapter 4
+class near_minimax {
+    using traits = interval_traits<interval>;
+
+public:
+    /// @param about   p is a polynomial in x - about
+    /// @param degree  at most `most_near_minimax_degree`
+    /// @cost  Taylor coefficients at up to 62 places, most often at less than ten
+    near_minimax(univariate f, double about, interval const& range, std::size_t degree)
+        : degree_(std::min(degree, most_near_minimax_degree)) {
+        bool const bounded = std::isfinite(range.lower()) && std::isfinite(range.upper());
+        if (!bounded || !interpolate(f, about, range)) return;
+        std::array<piece, most_pieces> all;
+        all[0] = look(f, about, range);
+        double seen = all[0].seen;
+        for (std::size_t count = 1;; ++count) {
+            auto const worst =
+                std::max_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count),
+                                 [](piece const& a, piece const& b) { return a.error < b.error; });
+            error_ = worst->error;
+            if (count == most_pieces || error_ <= 1.5 * seen) return;
+            double const middle = mid(worst->x);
+            all[count] = look(f, about, interval(middle, worst->x.upper()));
+            *worst = look(f, about, interval(worst->x.lower(), middle));
+            seen = std::max({seen, worst->seen, all[count].seen});
+        }
+    }
+
+    [[nodiscard]] std::size_t degree() const { return degree_; }
+    /// Coefficient k.
+    [[nodiscard]] double operator[](std::size_t k) const { return p_[k]; }
+    /// |f - p| is nowhere more; infinite where f is not smooth, or not finite, on all of the range,
+    /// or the range is a point.
+    [[nodiscard]] double error() const { return error_; }
+
+private:
+    static constexpr std::size_t most_pieces = 16;
+    struct piece {
+        interval x;
+        double error = std::numeric_limits<double>::infinity(); ///< a bound on all of it
+        double seen = 0;                                        ///< about the error at the middle
+    };
+
+    /// @returns  false where f is not defined at the nodes
+    bool interpolate(univariate f, double about, interval const& range) {
+        auto const n = degree_ + 1;
+        double const middle = mid(range), radius = rad(range);
+        if (!(radius > 0)) return false;
+        std::array<double, most_near_minimax_degree + 1> values{}, in_unit{};
+        auto const angle = [n](std::size_t i) {
+            return 3.141592653589793 * (2 * static_cast<double>(i) + 1) /
+                   (2 * static_cast<double>(n));
+        };
+        for (std::size_t i = 0; i < n; ++i) {
+            bool undefined = false;
+            interval y;
+            double const x = middle + radius * std::cos(angle(i));
+            taylor_coefficients(f, traits::point(x), 0, &y, undefined);
+            values[i] = mid(y);
+            if (undefined || !std::isfinite(values[i])) return false;
+        }
+        // Chebyshev coefficients, summed as polynomials in u = (x - middle) / radius.
+        std::array<double, most_near_minimax_degree + 1> last{}, now{};
+        now[0] = 1;
+        for (std::size_t j = 0; j < n; ++j) {
+            double sum = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                sum += values[i] * std::cos(static_cast<double>(j) * angle(i));
+            }
+            sum *= (j == 0 ? 1.0 : 2.0) / static_cast<double>(n);
+            for (std::size_t k = 0; k <= j; ++k) in_unit[k] += sum * now[k];
+            auto next = now; // T_{j+1} = 2 u T_j - T_{j-1}, with T_1 = u T_0
+            for (std::size_t k = 0; k < n; ++k) {
+                next[k] = (k > 0 ? (j == 0 ? 1.0 : 2.0) * now[k - 1] : 0.0) - last[k];
+            }
+            last = now;
+            now = next;
+        }
+        double scale = 1;
+        for (std::size_t k = 0; k < n; ++k, scale /= radius) p_[k] = in_unit[k] * scale;
+        shift(
+            p_, about - middle, [](double a, double b) { return a + b; },
+            [](double a, double b) { return a * b; });
+        return std::all_of(p_.begin(), p_.begin() + static_cast<std::ptrdiff_t>(n),
+                           [](double c) { return std::isfinite(c); });
+    }
+    /// The coefficients about a place that is `by` further on.
+    template <class Coefficients, class Number, class Add, class Multiply>
+    void shift(Coefficients& c, Number const& by, Add const& add, Multiply const& multiply) const {
+        for (std::size_t i = 0; i < degree_; ++i) {
+            for (std::size_t k = degree_; k-- > i;) c[k] = add(c[k], multiply(by, c[k + 1]));
+        }
+    }
+    [[nodiscard]] piece look(univariate f, double about, interval const& x) const {
+        auto const centre = traits::point(mid(x));
+        auto const r =
+            traits::point(std::max(traits::sub(traits::point(x.upper()), centre).upper(),
+                                   traits::sub(centre, traits::point(x.lower())).upper()));
+        std::array<interval, most_near_minimax_degree + 2> here, all;
+        std::array<interval, most_near_minimax_degree + 1> p;
+        bool undefined = false;
+        taylor_coefficients(f, centre, degree_, here.data(), undefined);
+        taylor_coefficients(f, x, degree_ + 1, all.data(), undefined);
+        if (undefined) return {x};
+        for (std::size_t k = 0; k <= degree_; ++k) p[k] = traits::point(p_[k]);
+        shift(p, traits::sub(centre, traits::point(about)), traits::add, traits::mul);
+        auto sum = traits::point(mag(all[degree_ + 1]));
+        double off = 0;
+        for (std::size_t k = degree_ + 1; k-- > 0;) {
+            off = mag(traits::sub(here[k], p[k]));
+            sum = traits::add(traits::mul(sum, r), traits::point(off));
+        }
+        if (!(sum.upper() < std::numeric_limits<double>::infinity())) return {x};
+        return {x, sum.upper(), off};
+    }
+
+    std::size_t degree_;
+    std::array<double, most_near_minimax_degree + 1> p_{};
+    double error_ = std::numeric_limits<double>::infinity();
+};
+
+} // namespace sivid
 
 namespace sivid {
 

@@ -2,8 +2,12 @@
 #ifndef SIVID_NUMBER_TEXT_NEAREST_TEXT_HPP
 #define SIVID_NUMBER_TEXT_NEAREST_TEXT_HPP
 
+#include <sivid/number/decimal.hpp>
+
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string>
 
 namespace sivid {
@@ -31,6 +35,20 @@ namespace sivid {
     double result = x;
     std::from_chars(text.data(), text.data() + text.size(), result);
     return result;
+}
+
+} // namespace sivid
+
+namespace sivid {
+
+/// The double of a decimal of few digits in [lower, upper], within `tolerance` of a point of it:
+/// what people can read and type.
+[[nodiscard]] inline double few_digits(double lower, double upper, double at, double tolerance) {
+    for (int digits = 1; digits < 17; ++digits) {
+        double const value = parse_nearest(nearest_text(at, digits)).value_or(at);
+        if (std::abs(value - at) <= tolerance && lower <= value && value <= upper) return value;
+    }
+    return std::clamp(at, lower, upper);
 }
 
 } // namespace sivid

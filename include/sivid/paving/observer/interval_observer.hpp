@@ -6,7 +6,7 @@
 #include <sivid/model/graph/arithmetic.hpp>
 #include <sivid/model/graph/program.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 #include <sivid/number/rounding.hpp>
 #include <sivid/paving/relation/input_range.hpp>
 #include <sivid/paving/response/misfit.hpp>

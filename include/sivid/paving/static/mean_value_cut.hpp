@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_STATIC_MEAN_VALUE_CUT_HPP
 #define SIVID_PAVING_STATIC_MEAN_VALUE_CUT_HPP
 
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 #include <sivid/paving/static/static_program.hpp>
 
 #include <array>

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_STATIC_STATIC_JUDGE_HPP
 #define SIVID_PAVING_STATIC_STATIC_JUDGE_HPP
 
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 #include <sivid/paving/static/detail/static_block.hpp>
 #include <sivid/paving/static/mean_value_cut.hpp>
 #include <sivid/paving/static/static_program.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_VERIFIER_IMPL_CHECK_IN_MULTIPRECISION_IPP
 #define SIVID_VERIFIER_IMPL_CHECK_IN_MULTIPRECISION_IPP
 
-#include <sivid/number/mp_functions.hpp>
+#include <sivid/number/mp_interval.hpp>
 #include <sivid/verifier/claim/detail/identification_check_work.hpp>
 #include <sivid/verifier/mp_identification_check.hpp>
 

@@ -3,7 +3,6 @@
 
 #include <sivid/model/graph/detail/formula_text.hpp>
 #include <sivid/model/graph/graph_range.hpp>
-#include <sivid/number/relations.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

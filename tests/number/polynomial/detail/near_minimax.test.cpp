@@ -3,7 +3,7 @@
 #include "support/power_series.hpp"
 #include "support/random.hpp"
 
-#include <sivid/number/polynomial/detail/near_minimax.hpp>
+#include <sivid/number/polynomial/taylor_model_functions.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/polynomial/detail/series_rows.hpp>
+#include <sivid/number/taylor_model.hpp>
 
 #include "support/catch.hpp"
 #include "support/rounding_modes.hpp"
 #include "support/taylor_models.hpp"
 
 #include <sivid/number/polynomial/detail/series_columns.hpp>
-#include <sivid/number/taylor_model.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/text/detail/decimal_text.hpp>
+#include <sivid/number/decimal.hpp>
 
 #include "number/support.hpp"
 

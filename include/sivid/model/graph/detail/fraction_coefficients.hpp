@@ -3,7 +3,7 @@
 #define SIVID_MODEL_GRAPH_DETAIL_FRACTION_COEFFICIENTS_HPP
 
 #include <sivid/model/graph/graph.hpp>
-#include <sivid/number/elementary/detail/wide_integer.hpp>
+#include <sivid/number/elementary/detail/integers.hpp>
 
 #include <cmath>
 #include <cstdint>

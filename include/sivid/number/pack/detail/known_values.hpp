@@ -3,7 +3,8 @@
 #define SIVID_NUMBER_PACK_DETAIL_KNOWN_VALUES_HPP
 
 /// @file
-/// Functions of an interval type against values that are known: what `first_broken_kernel` runs.
+/// Functions of an interval type against values that are known: what `first_broken_kernel` of
+/// `sivid::compiled` runs.
 
 #include <sivid/number/pack/detail/pack_target.hpp>
 #include <sivid/number/rounding.hpp>

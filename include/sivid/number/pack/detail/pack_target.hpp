@@ -14,31 +14,31 @@
 #if SIVID_MACHINE_ARM64
 #define SIVID_PACK_AVX512 0
 #define SIVID_PACK_AVX2 0
-#define SIVID_PACK_TARGET SIVID_NAMED(pack_neon)
+#define SIVID_PACK_TARGET pack_neon
 #elif !SIVID_MACHINE_X86_64
 #define SIVID_PACK_AVX512 0
 #define SIVID_PACK_AVX2 0
 #if SIVID_FUSED
-#define SIVID_PACK_TARGET SIVID_NAMED(pack_portable_fma)
+#define SIVID_PACK_TARGET pack_portable_fma
 #else
-#define SIVID_PACK_TARGET SIVID_NAMED(pack_portable)
+#define SIVID_PACK_TARGET pack_portable
 #endif
 #elif defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX2__) && defined(__FMA__)
 #define SIVID_PACK_AVX512 1
 #define SIVID_PACK_AVX2 1
-#define SIVID_PACK_TARGET SIVID_NAMED(pack_avx512)
+#define SIVID_PACK_TARGET pack_avx512
 #elif defined(__AVX2__) && defined(__FMA__)
 #define SIVID_PACK_AVX512 0
 #define SIVID_PACK_AVX2 1
-#define SIVID_PACK_TARGET SIVID_NAMED(pack_avx2)
+#define SIVID_PACK_TARGET pack_avx2
 #elif defined(__FMA__)
 #define SIVID_PACK_AVX512 0
 #define SIVID_PACK_AVX2 0
-#define SIVID_PACK_TARGET SIVID_NAMED(pack_sse2_fma)
+#define SIVID_PACK_TARGET pack_sse2_fma
 #else
 #define SIVID_PACK_AVX512 0
 #define SIVID_PACK_AVX2 0
-#define SIVID_PACK_TARGET SIVID_NAMED(pack_sse2)
+#define SIVID_PACK_TARGET pack_sse2
 #endif
 
 #include <string_view>

@@ -4,7 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/number/pack/lanes.hpp>
-#include <sivid/number/polynomial/detail/column_kernels.hpp>
+#include <sivid/number/polynomial/detail/product_kernels.hpp>
 #include <sivid/number/polynomial/monomial_space.hpp>
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 #ifndef SIVID_NUMBER_POLYNOMIAL_DETAIL_SERIES_COLUMNS_HPP
 #define SIVID_NUMBER_POLYNOMIAL_DETAIL_SERIES_COLUMNS_HPP
 
-#include <sivid/number/polynomial/detail/taylor_model_class.hpp>
+#include <sivid/number/taylor_model.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -14,34 +14,66 @@
 ///
 /// The last needs neither assembler nor a header of the processor, and is chosen on any machine by
 /// `SIVID_PORTABLE_ARITHMETIC` (the same in all files of a program: `interval` is another type).
+///
+/// Builds in which interval arithmetic would not prove anything are refused here.
 
 #include <cfenv>
-#include <cmath> // defines __GLIBC__ where it applies
+#include <cfloat>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 
-/// Whether elementary functions of `interval` are sivid's own (detail/own_functions.hpp) and not
-/// those of the C library: where nobody has measured the library's errors, and wherever
-/// `SIVID_OWN_FUNCTIONS` is defined (the same in all files of a program: `interval` is another
-/// type).
-#if defined(SIVID_OWN_FUNCTIONS) || !defined(__GLIBC__) || defined(__UCLIBC__)
-#define SIVID_TRUSTS_LIBRARY 0
-#define SIVID_NAMED(name) name##_own
-#else
-#define SIVID_TRUSTS_LIBRARY 1
-#define SIVID_NAMED(name) name
+#if defined(__FAST_MATH__)
+#error "sivid: -ffast-math breaks every inclusion; compile without it"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0
+#error "sivid: -ffinite-math-only removes infinities and the empty interval; compile without it"
+#endif
+#if defined(__ASSOCIATIVE_MATH__)
+#error "sivid: -fassociative-math breaks exact residuals; compile without it"
+#endif
+#if defined(__RECIPROCAL_MATH__)
+#error "sivid: -freciprocal-math replaces divisions; compile without it"
+#endif
+#if defined(__NO_SIGNED_ZEROS__)
+#error "sivid: -fno-signed-zeros is part of fast-math; compile without it"
+#endif
+#if defined(_M_FP_FAST)
+#error "sivid: /fp:fast breaks every inclusion; compile without it"
+#endif
+#if (defined(__x86_64__) || defined(__i386__)) && !defined(__SSE2_MATH__)
+#error "sivid: x87 arithmetic rounds twice; compile with -mfpmath=sse"
+#endif
+#if defined(__MINGW32__) && defined(__AVX__) && !defined(__clang__)
+#error "sivid: g++ for Windows misaligns vectors of AVX (GCC bug 54412); compile for SSE2"
+#endif
+#if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD != 0
+#error "sivid: doubles must be evaluated as doubles (FLT_EVAL_METHOD == 0)"
 #endif
 
+namespace sivid {
+
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
+static_assert(sizeof(double) == 8 && sizeof(void*) == 8, "sivid: a 64-bit machine is needed");
+
+/// The machine's floating-point state, or the way this file was compiled, makes proofs impossible.
+class unsound_environment : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace sivid
+
 #if defined(SIVID_PORTABLE_ARITHMETIC)
-#define SIVID_MACHINE SIVID_NAMED(portable)
+#define SIVID_MACHINE portable
 #elif defined(__x86_64__)
 #define SIVID_MACHINE_X86_64 1
-#define SIVID_MACHINE SIVID_NAMED(x86_64)
+#define SIVID_MACHINE x86_64
 #elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
 #define SIVID_MACHINE_ARM64 1
-#define SIVID_MACHINE SIVID_NAMED(arm64)
+#define SIVID_MACHINE arm64
 #else
-#define SIVID_MACHINE SIVID_NAMED(portable)
+#define SIVID_MACHINE portable
 #endif
 #ifndef SIVID_MACHINE_X86_64
 #define SIVID_MACHINE_X86_64 0
@@ -211,9 +243,8 @@ inline bool control_is_plain() noexcept {
 /// state back at the end.
 template <direction D>
 class with_rounding {
-    static_assert(
-        SIVID_MACHINE_X86_64 || D == direction::nearest,
-        "directed rounding needs no mode elsewhere: number/rounding/detail/exact_rounding.hpp");
+    static_assert(SIVID_MACHINE_X86_64 || D == direction::nearest,
+                  "directed rounding needs no mode elsewhere: number/rounding.hpp");
 
 public:
     with_rounding() noexcept : saved_{read_control()} {

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_STATIC_DETAIL_STATIC_FINDINGS_HPP
 #define SIVID_PAVING_STATIC_DETAIL_STATIC_FINDINGS_HPP
 
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 #include <sivid/paving/static/flat_paving.hpp>
 #include <sivid/paving/static/static_program.hpp>
 #include <sivid/work_limit.hpp>

@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_STATIC_DETAIL_STATIC_SURVEY_HPP
 #define SIVID_PAVING_STATIC_DETAIL_STATIC_SURVEY_HPP
 
-#include <sivid/number/pack_traits.hpp>
+#include <sivid/number/pack.hpp>
 #include <sivid/paving/static/detail/mean_value_program.hpp>
 #include <sivid/paving/static/mean_value_cut.hpp>
 #include <sivid/paving/static/static_judge.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Elementary functions without the C library, whether or not `interval` uses them here.
-#include <sivid/number/elementary/detail/own_functions.hpp>
+// What elementary functions of `interval` are made of.
+#include <sivid/number/elementary.hpp>
 
 #include "number/support.hpp"
 
@@ -8,9 +8,13 @@
 #include <cstdint>
 #include <limits>
 
-namespace own = sivid::detail::own;
+namespace own = sivid::detail;
+namespace integers = sivid::detail::integers;
+using sivid::detail::bounds_at;
+using sivid::detail::direction;
 using sivid::detail::full_product;
 using sivid::detail::high_product;
+using sivid::detail::product_by_halves;
 using sivid::detail::quotient;
 using sivid::detail::signed_two_words;
 using sivid::detail::two_words;
@@ -31,6 +35,12 @@ void check(oracle::value const& v, double lower, double upper, std::int64_t allo
     REQUIRE(ordered(upper) - ordered(v.above) <= allowed);
 }
 
+bounds_at sine_at(double x) { return own::waves_at<0>(x, x); }
+bounds_at cosine_at(double x) { return own::waves_at<1>(x, x); }
+bounds_at tangent_at(double x) { return own::at_ends<own::tan_bounds>(x, x); }
+double pow_down(double x, double y) { return own::pow_at<direction::down>(x, y); }
+double pow_up(double x, double y) { return own::pow_at<direction::up>(x, y); }
+
 double far_argument(oracle::inputs& in, int i) {
     if (i % 2 == 0) return in.magnitude(20, 1023);
     for (;;) {
@@ -46,7 +56,7 @@ TEST_CASE("sin, cos and tan far from zero, and next to quarter turns there") {
     for (int i = 0; i < 40'000; ++i) {
         double const x = far_argument(in, i);
         INFO("argument " << x);
-        auto const s = own::sin::both(x), c = own::cos::both(x), t = own::tan::both(x);
+        auto const s = sine_at(x), c = cosine_at(x), t = tangent_at(x);
         check(oracle::at(mpfr_sin, x), s.lower, s.upper, 2);
         check(oracle::at(mpfr_cos, x), c.lower, c.upper, 2);
         check(oracle::at(mpfr_tan, x), t.lower, t.upper, 3);
@@ -55,13 +65,13 @@ TEST_CASE("sin, cos and tan far from zero, and next to quarter turns there") {
     double const nearest = std::ldexp(6381956970095103.0, 797);
     for (double const x : {nearest, -nearest, 0x1p20, -0x1p20, std::nextafter(0x1p20, 1e9),
                            std::numeric_limits<double>::max()}) {
-        auto const s = own::sin::both(x), c = own::cos::both(x), t = own::tan::both(x);
+        auto const s = sine_at(x), c = cosine_at(x), t = tangent_at(x);
         check(oracle::at(mpfr_sin, x), s.lower, s.upper, 2);
         check(oracle::at(mpfr_cos, x), c.lower, c.upper, 2);
         check(oracle::at(mpfr_tan, x), t.lower, t.upper, 3);
     }
-    CHECK(own::sin::both(inf).lower == -1.0);
-    CHECK(own::tan::both(-inf).upper == inf);
+    CHECK(sine_at(inf).lower == -1.0);
+    CHECK(tangent_at(-inf).upper == inf);
 }
 
 TEST_CASE("the words of 2/pi, and a reduction that is known to more digits") {
@@ -69,7 +79,7 @@ TEST_CASE("the words of 2/pi, and a reduction that is known to more digits") {
     mpfr_set_prec(exact.raw(), 4000);
     mpfr_const_pi(exact.raw(), MPFR_RNDN);
     mpfr_ui_div(exact.raw(), 2, exact.raw(), MPFR_RNDN);
-    for (std::uint64_t const word : own::two_by_pi) {
+    for (std::uint64_t const word : integers::two_by_pi) {
         for (int half = 1; half >= 0; --half) { // 32 bits at a time: `long` has no more everywhere
             mpfr_mul_2ui(exact.raw(), exact.raw(), 32, MPFR_RNDN);
             unsigned long const bits = mpfr_get_ui(exact.raw(), MPFR_RNDD);
@@ -84,7 +94,7 @@ TEST_CASE("the words of 2/pi, and a reduction that is known to more digits") {
     mpfr_div_2ui(turn.raw(), turn.raw(), 1, MPFR_RNDN);
     for (int i = 0; i < 20'000; ++i) {
         double const x = std::abs(far_argument(in, i));
-        own::reduced_turns const a = own::reduce_far(x);
+        integers::reduced_turns const a = integers::reduce_far(x);
         // |(head + tail) - (x - n pi/2)| <= 2^-68 |rest|
         mpfr_set_d(rest.raw(), x, MPFR_RNDN);
         mpfr_div(off.raw(), rest.raw(), turn.raw(), MPFR_RNDN);
@@ -104,7 +114,7 @@ TEST_CASE("powers of any positive numbers") {
     auto const test = [](double x, double y) {
         if (!(x > 0.0) || x == 1.0 || y == 0.0) return;
         INFO("powers of " << x << ", " << y);
-        check(oracle::at(mpfr_pow, x, y), own::pow::down(x, y), own::pow::up(x, y), 2);
+        check(oracle::at(mpfr_pow, x, y), pow_down(x, y), pow_up(x, y), 2);
     };
     for (int i = 0; i < 100'000; ++i) {
         double const x = std::abs(in.mixed());
@@ -117,15 +127,40 @@ TEST_CASE("powers of any positive numbers") {
         test(x, static_cast<double>(in.below(60)) - 30.0);
     }
     // Exact ones stay exact where the base is a power of two.
-    CHECK(own::pow::down(8.0, 2.0) == 64.0);
-    CHECK(own::pow::up(8.0, 2.0) == 64.0);
-    CHECK(own::pow::down(0.25, 0.5) == 0.5);
-    CHECK(own::pow::up(0.25, -0.5) == 2.0);
-    CHECK(own::pow::up(2.0, 1024.0) == inf);
-    CHECK(own::pow::down(2.0, 1e300) == std::numeric_limits<double>::max());
-    CHECK(own::pow::up(2.0, -1e300) == std::numeric_limits<double>::denorm_min());
-    CHECK(own::pow::down(2.0, -1e300) == 0.0);
-    CHECK(own::pow::down(2.0, -1074.0) == std::numeric_limits<double>::denorm_min());
+    CHECK(pow_down(8.0, 2.0) == 64.0);
+    CHECK(pow_up(8.0, 2.0) == 64.0);
+    CHECK(pow_down(0.25, 0.5) == 0.5);
+    CHECK(pow_up(0.25, -0.5) == 2.0);
+    CHECK(pow_up(2.0, 1024.0) == inf);
+    CHECK(pow_down(2.0, 1e300) == std::numeric_limits<double>::max());
+    CHECK(pow_up(2.0, -1e300) == std::numeric_limits<double>::denorm_min());
+    CHECK(pow_down(2.0, -1e300) == 0.0);
+    CHECK(pow_down(2.0, -1074.0) == std::numeric_limits<double>::denorm_min());
+}
+
+TEST_CASE("powers with whole exponents") {
+    oracle::inputs in{2026};
+    auto const test = [](double x, unsigned n) {
+        if (!(x > 0.0) || x == inf) return;
+        INFO("power of " << x << ", " << n);
+        double const y = static_cast<double>(n);
+        check(oracle::at(mpfr_pow, x, y), own::pown_at<direction::down>(x, n),
+              own::pown_at<direction::up>(x, n), 2);
+        check(oracle::at(mpfr_pow, x, -y), own::reciprocal_pown_at<direction::down>(x, n),
+              own::reciprocal_pown_at<direction::up>(x, n), 3);
+    };
+    for (int i = 0; i < 100'000; ++i) {
+        test(std::abs(in.mixed()), 1 + static_cast<unsigned>(in.below(12)));
+        auto const n = 1 + static_cast<unsigned>(in.below(integers::most_whole + 100));
+        test(std::exp2(in.uniform(-1090, 1040) / n), n); // just over- or underflows
+        test(oracle::inputs::moved(1.0, static_cast<int>(in.below(200)) - 100), n);
+    }
+    CHECK(own::pown_at<direction::down>(3.0, 33) == 5559060566555523.0);
+    CHECK(own::pown_at<direction::up>(3.0, 33) == 5559060566555523.0);
+    CHECK(own::pown_at<direction::down>(2.0, 500) == 0x1p500);
+    CHECK(own::reciprocal_pown_at<direction::up>(2.0, 500) == 0x1p-500);
+    CHECK(own::reciprocal_pown_at<direction::down>(0x1p-1074, 5) ==
+          std::numeric_limits<double>::max());
 }
 
 TEST_CASE("what logarithm and exponential in integers are short by") {
@@ -153,7 +188,7 @@ TEST_CASE("what logarithm and exponential in integers are short by") {
         mpfr_div_2ui(exact.raw(), exact.raw(), 53, MPFR_RNDN);
         mpfr_log2(exact.raw(), exact.raw(), MPFR_RNDN);
         mpfr_abs(exact.raw(), exact.raw(), MPFR_RNDN);
-        double const log_off = missing(own::log2_of(n), 124);
+        double const log_off = missing(integers::log2_of(n), 124);
         REQUIRE(log_off >= 0.0);
         most_log = std::max(most_log, log_off);
 
@@ -161,13 +196,13 @@ TEST_CASE("what logarithm and exponential in integers are short by") {
         mpfr_set_d(exact.raw(), static_cast<double>(high), MPFR_RNDN);
         mpfr_div_2ui(exact.raw(), exact.raw(), 48, MPFR_RNDN);
         mpfr_exp2(exact.raw(), exact.raw(), MPFR_RNDN);
-        double const exp_off = missing(own::exp2_of({high, 0}), 127);
+        double const exp_off = missing(integers::exp2_of({high, 0}), 127);
         REQUIRE(exp_off >= 0.0);
         most_exp = std::max(most_exp, exp_off);
     }
-    CHECK(most_log < own::log2_short);
-    CHECK(most_exp < own::exp2_short);
-    CHECK(own::exp2_of({}) == two_words{std::uint64_t{1} << 63, 0});
+    CHECK(most_log < integers::log2_short);
+    CHECK(most_exp < integers::exp2_short);
+    CHECK(integers::exp2_of({}) == two_words{std::uint64_t{1} << 63, 0});
 }
 
 TEST_CASE("area functions and angles are near their values") {
@@ -175,17 +210,18 @@ TEST_CASE("area functions and angles are near their values") {
     for (int i = 0; i < 50'000; ++i) {
         double const x = in.mixed(), y = std::abs(in.mixed());
         INFO("arguments " << x << ", " << y);
-        check(oracle::at(mpfr_asinh, x), own::asinh::down(x), own::asinh::up(x), 8);
+        check(oracle::at(mpfr_asinh, x), own::asinh_at::down(x), own::asinh_at::up(x), 8);
         if (std::abs(x) >= 1.0)
-            check(oracle::at(mpfr_acosh, std::abs(x)), own::acosh::down(std::abs(x)),
-                  own::acosh::up(std::abs(x)), 8);
+            check(oracle::at(mpfr_acosh, std::abs(x)), own::acosh_at::down(std::abs(x)),
+                  own::acosh_at::up(std::abs(x)), 8);
         double const part = in.uniform(-1.0, 1.0);
-        check(oracle::at(mpfr_atanh, part), own::atanh::down(part), own::atanh::up(part), 8);
+        check(oracle::at(mpfr_atanh, part), own::atanh_at::down(part), own::atanh_at::up(part), 8);
         if (y > 0.0 && x != 0.0) {
             oracle::value const v = oracle::at(mpfr_atan2, y, x);
-            REQUIRE(own::atan2::down(y, x) <= v.below);
-            REQUIRE(v.above <= own::atan2::up(y, x));
-            if (v.below > 0x1p-1000) check(v, own::atan2::down(y, x), own::atan2::up(y, x), 6);
+            REQUIRE(own::atan2_at::down(y, x) <= v.below);
+            REQUIRE(v.above <= own::atan2_at::up(y, x));
+            if (v.below > 0x1p-1000)
+                check(v, own::atan2_at::down(y, x), own::atan2_at::up(y, x), 6);
         }
     }
 }
@@ -224,6 +260,7 @@ TEST_CASE("integers of two words are those of 128 bits") {
         REQUIRE((a < b) == (unsigned_of(a) < unsigned_of(b)));
         REQUIRE(unsigned_of(full_product(a.low, b.low)) ==
                 static_cast<wide_unsigned>(a.low) * b.low);
+        REQUIRE(full_product(a.low, b.low) == product_by_halves(a.low, b.low));
         std::uint64_t const divisor = (b.low >> 1) + 1;
         REQUIRE(unsigned_of(quotient(a, divisor)) == unsigned_of(a) / divisor);
         // The upper half of a product by its four parts, another way round.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/number/elementary/detail/piecewise.hpp>
+#include <sivid/number/elementary.hpp>
 
 #include "laws/containment.hpp"
 #include "support/catch.hpp"

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_NUMBER_PACK_IMPL_KERNEL_TRIAL_IPP
-#define SIVID_NUMBER_PACK_IMPL_KERNEL_TRIAL_IPP
+#ifndef SIVID_NUMBER_IMPL_GUARD_IPP
+#define SIVID_NUMBER_IMPL_GUARD_IPP
 
+/// @file
+/// The trial of all functions, which only `sivid::compiled` makes. (g++ 12 with -flto lost sin and
+/// cos of packs in silence.)
+
+#include <sivid/number/guard.hpp>
 #include <sivid/number/interval_traits.hpp>
-#include <sivid/number/pack/detail/kernel_trial.hpp>
+#include <sivid/number/pack.hpp>
 #include <sivid/number/pack/detail/known_values.hpp>
-#include <sivid/number/pack_traits.hpp>
 
 #include <cstddef>
+
+#ifdef SIVID_COMPILED
 
 namespace sivid::inline SIVID_PACK_TARGET {
 
@@ -22,7 +28,7 @@ template <std::size_t W>
         return nullptr;
 }
 
-[[nodiscard]] SIVID_DECL broken_kernel search() noexcept {
+[[nodiscard]] broken_kernel search() noexcept {
     if (auto f = first_broken_function<interval_traits<interval>>()) return {"interval", f};
     if (auto f = first_broken_function_of_pack<1>()) return {"pack<1>", f};
     if (auto f = first_broken_function_of_pack<2>()) return {"pack<2>", f};
@@ -33,11 +39,13 @@ template <std::size_t W>
 
 } // namespace trial
 
-SIVID_DECL broken_kernel first_broken_kernel() noexcept {
+broken_kernel first_broken_kernel() noexcept {
     static broken_kernel const found = trial::search();
     return found;
 }
 
 } // namespace sivid::inline SIVID_PACK_TARGET
+
+#endif
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_NUMBER_PACK_FUNCTIONS_HPP
-#define SIVID_NUMBER_PACK_FUNCTIONS_HPP
+#ifndef SIVID_TESTS_SUPPORT_PACK_FUNCTIONS_HPP
+#define SIVID_TESTS_SUPPORT_PACK_FUNCTIONS_HPP
 
 /// @file
 /// Operators and functions of packs as in formulas, those that models are made of: the 1788 value
@@ -8,7 +8,6 @@
 /// cut are set in it.
 
 #include <sivid/number/pack.hpp>
-#include <sivid/number/pack_traits.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +20,7 @@ using cut_lanes = std::uint64_t;
 
 /// The derived error bounds of the pack's own kernels, in units of 2^-53 relative to the value,
 /// before the one directed rounding of each bound. A bound is therefore within ceil(2 error) + 2
-/// floats of the value. Arguments of sin, cos, tan beyond 2^20 have the vocabulary type's `excess`.
+/// floats of the value. Arguments of sin, cos, tan beyond 2^20 go through the vocabulary type.
 namespace pack_error = simd::kernel_error;
 
 #define SIVID_PACK_UNARY(name, of)                                                                 \
