@@ -146,11 +146,11 @@ TEST_CASE("the order of the search and its results are those of the plain loop i
              {false, large, 2, 1207, 604, 160, 248, 0x1.9p-6, 0x1.44p-5},
              {false, first, 0, 1207, 604, 160, 248, 0x1.9p-6, 0x1.44p-5},
              {false, first, 1, 1162, 821, 154, 0, 0x1.8ap-6, 0x1.48p-5},
-             {true, large, 0, 1360, 828, 260, 304, 0x1.a56482f5e9fd8p-6, 0x1.1777f32d08633p-5},
-             {true, large, 1, 780, 692, 128, 0, 0x1.63872f9e3b058p-6, 0x1.281d52045e2f8p-5},
-             {true, large, 2, 32, 44, 0, 0, 0, 0x1.23bcd0aac6cafp-4},
-             {true, first, 0, 1360, 828, 260, 304, 0x1.a56482f5e9fd6p-6, 0x1.1777f32d0863p-5},
-             {true, first, 1, 842, 766, 146, 3, 0x1.64131ede018fbp-6, 0x1.28876ac2fd141p-5}}) {
+             {true, large, 0, 1416, 856, 276, 304, 0x1.a561f370c6258p-6, 0x1.1777f32d08637p-5},
+             {true, large, 1, 795, 699, 128, 0, 0x1.63872f9e3b058p-6, 0x1.281d52045e2f7p-5},
+             {true, large, 2, 32, 44, 0, 0, 0, 0x1.23bcd0aac6cbp-4},
+             {true, first, 0, 1416, 856, 276, 304, 0x1.a561f370c6256p-6, 0x1.1777f32d08631p-5},
+             {true, first, 1, 864, 780, 147, 3, 0x1.652ee657f09cfp-6, 0x1.2941351a806f3p-5}}) {
         ring test{1, 2, e.contracting};
         inversion_options o;
         o.accuracy = 1.0 / 128;
