@@ -108,10 +108,8 @@ TEST_CASE("where solutions are not unique, all of them are enclosed") {
     for (auto const set : {carried_set::taylor_model, carried_set::doubleton}) {
         for (double const start : {0.0, -0.01}) {
             CAPTURE(static_cast<int>(set), start);
-            enclosure_options coarse;
-            coarse.tolerance = 1e-9; // of a ten thousandth, at 0
-            auto const motion = enclose(f, box{interval(start)}, box{}, 0, 1, set, coarse);
-            REQUIRE(motion.end_time() > 0.5); // from -0.01 it gets to 0 at 0.1
+            auto const motion = enclose(f, box{interval(start)}, box{}, 0, 1, set);
+            REQUIRE(motion.complete()); // from -0.01 it gets to 0 at 0.1
             double const wait = std::sqrt(-start);
             for (double const t : {0.05, 0.2, 0.5}) {
                 auto const all = motion.at(t)[0];
@@ -120,6 +118,38 @@ TEST_CASE("where solutions are not unique, all of them are enclosed") {
                 double const most = t < wait ? least : (t - wait) * (t - wait);
                 for (double const x : {least, 0.5 * (least + most), most})
                     REQUIRE(support::encloses_reference(all, static_cast<long double>(x)));
+            }
+        }
+    }
+}
+
+TEST_CASE("an empty tank fills, by any set, in any unit of time") {
+    // h' = 1 - sqrt(h) from 0: t = -2 sqrt(h) - 2 log(1 - sqrt(h)).
+    auto const time_of = [](long double h) {
+        long double const root = std::sqrt(h);
+        return -2 * root - 2 * std::log1p(-root);
+    };
+    for (double const unit : {1.0, 1e3, 1 / 3600.0}) {
+        for (bool const absolute : {false, true}) {
+            auto const f = support::flow_of(
+                support::model_of({1, 0, 0, 10}, [absolute, unit](auto const&, auto const& x,
+                                                                  auto const&, auto const&) {
+                    auto const root = absolute ? sqrt(abs(x[0])) * sign(x[0]) : sqrt(max(x[0], 0));
+                    return std::vector{(1 - root) / unit};
+                }));
+            for (auto const set : {carried_set::taylor_model, carried_set::doubleton}) {
+                CAPTURE(unit, absolute, static_cast<int>(set));
+                auto const motion = enclose(f, box{interval(0.0)}, box{}, 0, 3 * unit, set);
+                REQUIRE(motion.complete());
+                for (double const share : {1e-6, 1e-3, 0.1, 0.5, 1.0}) {
+                    double const t = 3 * share * unit;
+                    auto const level = motion.at(t)[0];
+                    CAPTURE(t, level.lower(), level.upper());
+                    // The level rises: it is at least x where that is reached before t.
+                    CHECK(time_of(level.lower()) * unit <= t * (1 + 1e-12L));
+                    CHECK(time_of(level.upper()) * unit >= t * (1 - 1e-12L));
+                    CHECK(width(level) < 1e-8);
+                }
             }
         }
     }

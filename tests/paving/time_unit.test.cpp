@@ -167,10 +167,15 @@ TEST_CASE("the same data leave the same set after the same work, in any units") 
     compare(exact, [](units const& in) { return identified_online(in, {2, 20}); });
 }
 
-TEST_CASE("with dry friction in the model, too, where no rounding differs", "[.long]") {
-    compare({{0x1p-12, 1, 1, "2^12 s"}}, [](units const& in) {
-        return identified(in, true, 40, {4, 40});
-    });
+TEST_CASE("with dry friction in the model, too") {
+    compare({{1e3, 1, 1, "ms"}}, [](units const& in) { return identified(in, true, 24, {4, 40}); });
+}
+
+TEST_CASE("with dry friction in the model, a long record is searched alike, too", "[.long]") {
+    compare({{1e3, 1, 1, "ms"}, {1e6, 1, 1, "us"}, {1.0 / 3600, 1e-6, 1e6, "h"}},
+            [](units const& in) {
+                return identified(in, true, 3000, {20, 200});
+            });
 }
 
 TEST_CASE("identification is the same in all units", "[.long]") {

@@ -18,7 +18,7 @@ namespace sivid {
 /// Expressions are those of requirements (`requirement`), in states, channels, constants, inputs
 /// that are not commanded, gains (constants that `loop` was given before) and the time t; besides
 ///   clamp(x, low, high)   x within these bounds
-///   during(from, to)      1 from a time on until just before another one, else 0; times in s, or
+///   during(from, to)      1 from a time on until just before another one, else 0; times, or
 ///                         `end`
 ///   integral(x)           since the begin, by a further state
 /// A state is read as it is; measured(c) is what the sensor of a channel shows, with its error.

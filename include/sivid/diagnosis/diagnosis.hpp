@@ -75,7 +75,7 @@ using inflation_range = interval;
 /// A stretch of a scenario.
 struct time_window {
     std::string scenario;
-    double from = 0, to = 0; ///< [s]
+    double from = 0, to = 0; ///< [time]
 };
 
 /// A proof that an equation and sensors cannot hold together, whatever the parameters, if the

@@ -52,7 +52,10 @@ struct enclosure_options {
 
     [[nodiscard]] bool cancelled() const { return keep_going && !keep_going(); }
     [[nodiscard]] double shortest_step() const { return minimum_step * span; }
-    [[nodiscard]] double longest_step() const { return maximum_step.value_or(span / 10); }
+    /// Unless it is asked for, no rounding leaves a short step at the end of ten.
+    [[nodiscard]] double longest_step() const {
+        return maximum_step.value_or(span / 10 * (1 + 1e-9));
+    }
 };
 
 /// The options for a span: a model may count in microseconds or in days.

@@ -26,7 +26,7 @@ struct decision_json_options {
     std::map<std::string, interval> set{};   ///< constants of the scenario, gains of the law
     std::string law{};                       ///< "" for none
     std::map<std::string, double> sensors{}; ///< error bounds of what the law reads
-    double sampled = 0, delay = 0;           ///< of the law [s]; 0: it acts at every instant
+    double sampled = 0, delay = 0;           ///< of the law [time]; 0: it acts at every instant
 };
 
 /// `prediction.json` in the format sivid-prediction-1: tubes, outward.

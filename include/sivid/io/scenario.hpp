@@ -63,7 +63,7 @@ struct input_shape {
 
 struct scenario_description {
     std::string name, about;
-    double duration = 0;               ///< [s]
+    double duration = 0;               ///< [time]
     std::vector<input_shape> inputs;   ///< one for each input of the model
     std::vector<stated_range> initial; ///< one for each state of the model
 };

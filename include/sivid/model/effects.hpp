@@ -82,8 +82,8 @@ SIVID_DECL effect stribeck_friction(std::string const& name, std::string const& 
 /// is slow, and slip,
 ///   \f$ x' - k (z + d z'), \quad z' = (x - |x| z / g)/b, \quad g = 1 + r e^{-(x/v)^2} \f$
 /// with k the force at speed, r how much more it takes at rest, b how far the bristles bend (in the
-/// unit of x times s), d their damping [s]. They are straight at the begin. It sticks as a stiff
-/// spring does, with no jump: enclosures need steps shorter than b/|x|.
+/// unit of x times time), d their damping [time]. They are straight at the begin. It sticks as a
+/// stiff spring does, with no jump: enclosures need steps shorter than b/|x|.
 /// @ref  Canudas de Wit, Olsson, Astrom and Lischinsky, IEEE Trans. Autom. Control 40 (1995), with
 ///       sigma_0 = k/b, sigma_1 = k d/b
 SIVID_DECL effect lugre_friction(std::string const& name, std::string const& state,

@@ -60,10 +60,10 @@ struct search_effort {
 /// prior before it was searched.
 struct window_effort {
     std::size_t windows = 0; ///< that were carried, all together
-    double longest = 0;      ///< of them [s]
+    double longest = 0;      ///< of them [time]
     double seconds = 0;
     double left = 1;         ///< at most so much of the prior's volume
-    double input_period = 0; ///< of `with_slower_inputs` [s]; 0: inputs as they are
+    double input_period = 0; ///< of `with_slower_inputs` [time]; 0: inputs as they are
     /// The shares of the volume that the state equations between samples, and interval observers,
     /// have each left of what they were given; 1: nothing was cut off.
     double by_equations = 1, by_observers = 1;

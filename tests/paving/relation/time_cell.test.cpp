@@ -46,6 +46,22 @@ TEST_CASE("times are refined and each of them stays") {
     CHECK(refined_times({2.0}, 1) == std::vector<double>{2.0});
 }
 
+TEST_CASE("the same fraction of a gap is the same time, however many pieces there are") {
+    for (double const unit : {1.0, 1e3, 1 / 3600.0, 0.37}) {
+        for (int k = 0; k < 50; ++k) {
+            double const from = k * 0.1 * unit, to = (k + 1) * 0.1 * unit, gap = to - from;
+            CAPTURE(unit, k);
+            auto const four = refined_times({from, to}, gap / 4);
+            auto const six = refined_times({from, to}, gap / 6);
+            auto const twelve = refined_times({from, to}, gap / 12);
+            REQUIRE(six.size() == 7);
+            CHECK(four[2] == six[3]);
+            for (std::size_t j = 0; j < 5; ++j) CHECK(four[j] == twelve[3 * j]);
+            for (std::size_t j = 0; j < 7; ++j) CHECK(six[j] == twelve[2 * j]);
+        }
+    }
+}
+
 TEST_CASE("windows are of many lengths, up to all, and few") {
     CHECK(sivid::spread_windows(0).empty());
     CHECK(sivid::spread_windows(1).empty());

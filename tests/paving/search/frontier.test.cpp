@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 #include "support/models.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -55,6 +56,37 @@ TEST_CASE("the side to split is the one with the strongest smear that is still w
     CHECK(side_to_split(x, whole, {1, 2}, 0.01) == 1);
     CHECK(side_to_split(x, whole, {1, 2}, 0.2) == 0);
     CHECK_FALSE(side_to_split(x, whole, {}, 0.6));
+}
+
+TEST_CASE("what is of one size but for rounding comes in the order of its coming") {
+    // Halves of halves of a box whose bounds are rounded: in another unit other ones are larger.
+    for (double const unit : {1.0, 1e3, 1 / 3600.0, 1e6}) {
+        CAPTURE(unit);
+        interval const side(0.1 * unit, 0.7 * unit);
+        box const whole{side, side};
+        std::vector<box> parts{whole};
+        for (std::size_t const axis : {0u, 1u, 0u, 1u}) {
+            std::vector<box> halves;
+            for (auto const& x : parts) {
+                // The halves of both sides are equally wide, too: the first one is split.
+                CHECK(paving_detail::side_to_split(x, whole, {}, 0.01) == axis);
+                auto [low, high] = bisect(x, axis, mid(x[axis]));
+                halves.push_back(std::move(low));
+                halves.push_back(std::move(high));
+            }
+            parts = std::move(halves);
+        }
+        paving_detail::frontier<int> waiting(search_order::largest_first);
+        for (auto const& x : parts) waiting.push(x, relative_volume(x, whole).upper(), 0);
+        for (std::size_t k = 0; k < parts.size(); ++k) CHECK(waiting.pop().number == k);
+    }
+    using paving_detail::rank_of;
+    CHECK(rank_of(0.25) == 0.25);
+    CHECK(rank_of(1.0 / 3) == rank_of(1 - 2.0 / 3));
+    CHECK(rank_of(0.25) < rank_of(0.25 * (1 + 1e-6)));
+    CHECK(rank_of(0) == 0);
+    CHECK(rank_of(1e-320) > 0);
+    CHECK(rank_of(HUGE_VAL) == HUGE_VAL);
 }
 
 TEST_CASE("a hull rests at the second look in a row at which no side has shrunk") {

@@ -28,7 +28,7 @@ struct estimated_place {
     std::string name;
     double loss = 0;         ///< what the score loses without it
     std::string scenario;    ///< where it is seen best
-    double from = 0, to = 0; ///< [s]
+    double from = 0, to = 0; ///< [time]
     double missing = 0;      ///< mean missing rate there, or the sensor's fault
     double deviation = 0;    ///< its standard deviation; 0 when not known
     std::string unit;

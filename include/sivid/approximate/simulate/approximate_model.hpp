@@ -30,7 +30,7 @@ struct plain_memory {
     std::size_t index = 0;     ///< of the input or channel
     bool unknown = false;      ///< whether `parameter` is its size, else `size`
     std::size_t parameter = 0; ///< among the unknown parameters
-    double size = 0;           ///< [s], or in the unit of the input
+    double size = 0;           ///< [time], or in the unit of the input
     memory_kind kind = memory_kind::delay;
     std::optional<std::size_t> when{}; ///< of a channel: while this held input is not 0
 

@@ -31,7 +31,7 @@ class separation {
 public:
     /// @param candidates  at their best fits
     /// @param errors      bound of each channel; 0: not measured
-    /// @param period      of the measurements [s]
+    /// @param period      of the measurements [time]
     separation(std::vector<screened const*> candidates, std::vector<double> errors, double period,
                std::function<bool()> go_on)
         : candidates_(std::move(candidates)),

@@ -142,7 +142,7 @@ private:
         std::size_t steps, columns;
     };
 
-    /// @param unit  powers of two
+    /// @param unit  one for each state
     /// @given  count is at least the number of states
     /// @returns how many columns stand for them, at most one a state
     std::size_t box_together(std::size_t first, std::size_t count, std::vector<C> const& unit,
@@ -205,8 +205,7 @@ void parametric_set<Model>::reduce(std::size_t most, std::vector<C>& lost, mask 
     if (columns.size() <= most) return;
     auto const n = centre.size();
     measure();
-    std::vector<C> unit; // of each state: about what it has lost, as a power of two
-    for (auto const& e : reach) unit.push_back(unit_below(e));
+    auto const& unit = reach; // so that no unit of a state decides on the frame
     std::vector<C> length(columns.size());
     for (std::size_t j = 0; j < columns.size(); ++j) {
         for (std::size_t i = 0; i < n; ++i) length[j] += columns[j][i].norm() / unit[i];

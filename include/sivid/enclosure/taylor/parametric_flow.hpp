@@ -307,6 +307,7 @@ parametric_flow<Model, Centre>::advance(C const& limit) {
         if (lane.attempts == 0) {
             // Where the set touches a root of 0, the centre's coefficients say nothing of a step.
             bool const steep = smooth && side_by_side::test(derivative_.steep(), l);
+            lane.root = steep;
             double const length =
                 steep ? std::min(options_.longest_step(), rest) : propose(l, rest);
             lane.next = smooth && !steep ? gentle(l, length) : length;

@@ -16,7 +16,7 @@ namespace sivid {
 struct prediction_request {
     std::vector<signal> inputs;
     box initial;    ///< of the states, at time 0
-    double end = 0; ///< [s]
+    double end = 0; ///< [time]
     /// Constants that have other values in the scenario than in the data, or are known less well.
     std::map<std::string, interval> set;
     double proof_seconds = 5; ///< to prove one parameter feasible

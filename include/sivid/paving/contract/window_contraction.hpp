@@ -30,8 +30,8 @@ struct window_options {
     double seconds = std::numeric_limits<double>::infinity();
     std::function<bool()> keep_going = nullptr; ///< asked now and then by any thread; may be empty
     executor workers{};                         ///< runs windows and programs at once
-    double longest = std::numeric_limits<double>::infinity(); ///< no window is longer [s]
-    double first = std::numeric_limits<double>::infinity();   ///< length that is tried first [s]
+    double longest = std::numeric_limits<double>::infinity(); ///< no window is longer [time]
+    double first = std::numeric_limits<double>::infinity();   ///< length that is tried first [time]
     /// In one program: they are run side by side, and a program's cost grows with their cube.
     std::size_t windows = 8;
     /// Windows of a record that follow each other; 1: one from its begin, which grows.
@@ -56,10 +56,10 @@ struct window_contraction {
     std::vector<box> starts; ///< of each experiment, contain every start that explains it
     std::size_t rounds = 0;  ///< of programs over several windows
     std::size_t windows = 0; ///< that were carried, all together
-    double longest = 0;      ///< of them [s]
+    double longest = 0;      ///< of them [time]
     double seconds = 0;
     /// What contracted saw the inputs as lines with knots so far apart (`with_slower_inputs`), and
-    /// searched the prior as well; 0: it saw them as they are. [s]
+    /// searched the prior as well; 0: it saw them as they are. [time]
     double input_period = 0;
     /// The shares of the volume that the state equations between samples, and interval observers,
     /// have each left of what they were given; 1: nothing was cut off.

@@ -21,8 +21,8 @@ namespace sivid {
 ///   Unlike a bound on the second derivative it allows jumps of the rate: an actuator that
 ///   switches, a gust, dry friction at rest.
 struct rate_variation {
-    double period = 0;    ///< [s]
-    double variation = 0; ///< in the quantity's unit per s
+    double period = 0;    ///< [time]
+    double variation = 0; ///< in the quantity's unit per time
 };
 
 /// Where a quantity lies at all times, from bounds at some times and a declared rate variation.

@@ -24,15 +24,15 @@ struct relation_window {
 struct missing_rate {
     relation_window window;
     interval value;   ///< certified over the whole prior
-    std::string unit; ///< of the state, per s
+    std::string unit; ///< of the state, per time
 };
 
 /// The assumption that the rate of a state varies by at most so much within a time.
 struct assumed_variation {
     std::string scenario;
     std::size_t state = 0;
-    double period = 0;    ///< [s]
-    double variation = 0; ///< in the state's unit per s
+    double period = 0;    ///< [time]
+    double variation = 0; ///< in the state's unit per time
 };
 
 /// What is proved of an equation itself, and not of it or its sensors.

@@ -46,7 +46,8 @@ struct time_cell {
     std::vector<cell_line> lines; ///< of states, then inputs, then time
 };
 
-/// The given times, each gap cut into pieces no longer than about `step`.
+/// The given times, each gap cut into pieces no longer than about `step`. Halves, thirds and so on
+/// of a gap are the same doubles whatever the number of pieces is.
 [[nodiscard]] inline std::vector<double> refined_times(std::vector<double> times, double step) {
     std::sort(times.begin(), times.end());
     std::vector<double> result;
@@ -55,7 +56,8 @@ struct time_cell {
         auto const pieces =
             static_cast<std::size_t>(std::clamp(std::ceil(gap / step - 1e-6), 1.0, 1e3));
         for (std::size_t p = 0; p < pieces; ++p) {
-            double const t = times[k] + gap * static_cast<double>(p) / static_cast<double>(pieces);
+            double const t =
+                times[k] + gap * (static_cast<double>(p) / static_cast<double>(pieces));
             if (result.empty() || result.back() < t) result.push_back(t);
         }
     }

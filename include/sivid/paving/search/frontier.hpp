@@ -5,6 +5,7 @@
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -19,6 +20,15 @@ enum class search_order {
 };
 
 namespace paving_detail {
+
+/// A size by which boxes are ordered: to 24 bits, so that halves of a box are of one size, however
+/// their bounds are rounded.
+[[nodiscard]] inline double rank_of(double size) {
+    if (!std::isfinite(size)) return size;
+    int e = 0;
+    double const m = std::frexp(size, &e);
+    return std::ldexp(std::round(std::ldexp(m, 24)), e - 24);
+}
 
 /// Waiting boxes as a heap: by volume, or by age.
 /// @tparam Load  what waits with a box
@@ -110,8 +120,9 @@ public:
 private:
     [[nodiscard]] auto after() const {
         return [order = order_](item const& a, item const& b) {
-            if (order == search_order::largest_first && a.volume != b.volume) {
-                return a.volume < b.volume;
+            if (order == search_order::largest_first) {
+                double const one = rank_of(a.volume), other = rank_of(b.volume);
+                if (one != other) return one < other;
             }
             return a.number > b.number;
         };
@@ -128,20 +139,21 @@ private:
 [[nodiscard]] inline std::optional<std::size_t>
 side_to_split(box const& x, box const& whole, std::vector<double> const& smear, double accuracy) {
     std::optional<std::size_t> best;
-    double best_rank = -1;
+    double best_rank = -1, best_share = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
         double const all = width(whole[i]);
         double const share = all > 0 ? width(x[i]) / all : 0;
         double const middle = mid(x[i]);
         bool const splits = x[i].lower() < middle && middle < x[i].upper();
         if (!(share > accuracy) || !splits) continue;
-        double const rank = smear.empty()   ? share
-                            : smear[i] >= 0 ? smear[i]
-                                            : 0; // NaN says nothing
-        if (rank > best_rank ||
-            (rank == best_rank && share > width(x[*best]) / width(whole[*best]))) {
+        double const rank = rank_of(smear.empty()   ? share
+                                    : smear[i] >= 0 ? smear[i]
+                                                    : 0); // NaN says nothing
+        double const own = rank_of(share);
+        if (rank > best_rank || (rank == best_rank && own > best_share)) {
             best = i;
             best_rank = rank;
+            best_share = own;
         }
     }
     return best;

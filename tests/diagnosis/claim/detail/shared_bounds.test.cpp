@@ -8,6 +8,7 @@
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -114,8 +115,15 @@ TEST_CASE("parts of the data, and of their bounds, say what they imply of all") 
     part.factor = from(0, 2.4);
     auto const& w = *run.base_bound.witness;
     part.witness = named(run.base, w.parameters, w.starts);
+    auto& slope = part.witness.parameters.front().value;
+    slope = std::nextafter(slope, HUGE_VAL); // another one than that of the model as it is
     run.result.confined = {part};
     share_bounds(run);
+    // What the result shows as the witness of its upper end is the one that attains it.
+    REQUIRE(run.result.witness);
+    CHECK(run.result.witness->parameters.front().value == slope);
+    REQUIRE(run.base_bound.witness);
+    CHECK(run.base_bound.witness->parameters.front() == slope);
     CHECK(run.result.inflation.lower() == 2.1);
     CHECK(run.result.inflation.upper() == 2.4);
     CHECK(run.base_bound.range.upper() == 2.4);

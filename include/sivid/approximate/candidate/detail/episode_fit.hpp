@@ -356,7 +356,7 @@ private:
     std::function<bool()> go_on_;
     std::vector<double> always_; ///< parameters with the effect all the time
     std::vector<std::string> names_;
-    std::vector<double> spans_; ///< how long each experiment is [s]
+    std::vector<double> spans_; ///< how long each experiment is [time]
     approximate_fit known_;     ///< with the steps
     std::vector<std::string> acting_;
     std::vector<double> since_, until_; ///< of those that it acts in

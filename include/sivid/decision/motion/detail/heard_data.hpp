@@ -55,7 +55,7 @@ private:
     std::vector<bool> unmeasured_;
     std::map<std::vector<double>, bool> said_;
     stopwatch clock_;
-    double heard_ = 0; ///< [s]
+    double heard_ = 0; ///< [time]
 };
 
 } // namespace sivid::decision_detail

@@ -143,7 +143,7 @@ private:
     identification_problem const* problem_;
     model_description const* about_;
     std::vector<double> low_, high_; ///< by channel, of what was measured
-    double longest_ = 0;             ///< experiment [s]
+    double longest_ = 0;             ///< experiment [time]
     std::set<std::string> suspected_;
     std::vector<effect> faults_;
 };

@@ -22,19 +22,24 @@ class framed_box {
 
 public:
     /// @param first, last  of the columns g_j, with an entry for each state
-    /// @param unit   powers of two, one for each state: the frame is orthogonal in these units
+    /// @param units  one for each state: the frame is orthogonal in these. Where one is beyond
+    ///               1e100, below 1e-100 or no number, 1 takes its place.
     /// @param score  sizes of directions in common, see `common_frame`
     template <class Iterator, class Score>
-    framed_box(Iterator first, Iterator last, std::vector<C> const& unit, Score const& score)
-        : unit_(unit), sides_(unit.size()) {
-        auto const n = unit.size();
+    framed_box(Iterator first, Iterator last, std::vector<C> const& units, Score const& score)
+        : sides_(units.size()) {
+        auto const n = units.size();
+        for (auto const& u : units) {
+            auto const fair = (u > C(1e-100)) & (u < C(1e100));
+            unit_.push_back(side_by_side::select(fair, u, C(1.0)));
+        }
         std::vector<std::vector<C>> directions;
         double up = 1; // enough for the sums over the terms of an entry
         std::size_t count = 0;
         for (auto g = first; g != last; ++g, ++count) {
             auto& d = directions.emplace_back(n);
             for (std::size_t i = 0; i < n; ++i) {
-                d[i] = (*g)[i].c()[0] / unit[i];
+                d[i] = (*g)[i].c()[0] / unit_[i];
                 up = std::max(up, (*g)[i].shape().up);
             }
         }
@@ -59,6 +64,7 @@ public:
 
 private:
     /// The coordinates of a column in the frame are \f$ (1 + R)^{-1} Q^T g \f$ with |R| <= defect.
+    /// Quotient, product and n - 1 sums of a term are rounded: by less than (n + 4) units together.
     void add(column const& g, double up) {
         auto const n = unit_.size();
         std::vector<C> along(n);

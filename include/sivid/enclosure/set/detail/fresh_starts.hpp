@@ -36,8 +36,7 @@ with_fresh_starts(parametric_set<taylor_model<double>> const& set, std::size_t k
     for (std::size_t i = 0; i < n; ++i) {
         auto const& p = set.centre[i];
         if (p.terms() > largest->terms()) largest = &p; // others may be numbers
-        double const size = p.spread() + set.reach[i];
-        unit.push_back(size > 1e-100 && size < 1e100 ? std::ldexp(1.0, std::ilogb(size)) : 1.0);
+        unit.push_back(p.spread() + set.reach[i]);
         lost[i] = set.tail.empty() ? 0.0 : std::abs(set.tail[i]);
         own.push_back(p);
     }

@@ -20,6 +20,11 @@ inline constexpr std::size_t crossing_steps = 20;
 [[nodiscard]] inline double shortest_step(enclosure_options const& o, bool crosses) {
     return (crosses ? 1e-3 : 1.0) * o.shortest_step();
 }
+/// The same of a set that touches a root of 0. Beyond it series reach about as far as the state is
+/// from 0: the step has to bring it so far that theirs are longer than the shortest.
+[[nodiscard]] inline double step_off_root(enclosure_options const& o) {
+    return 5 * o.shortest_step();
+}
 /// Share of what a set spans that one step across a kink may lose.
 [[nodiscard]] inline double kink_share(enclosure_options const& o) {
     return std::min(0.02, 1e3 * o.relative_tolerance);

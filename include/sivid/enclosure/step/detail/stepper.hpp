@@ -77,7 +77,9 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
     if (cut) h = near_;
     double const proposed = h;
     bool const resting = crossing_ >= enclosure_detail::crossing_steps;
+    bool root = false; // the set touches one of 0
     auto const least = [&] { return enclosure_detail::shortest_step(options_, cut && !resting); };
+    auto const enough = [&] { return root ? enclosure_detail::step_off_root(options_) : least(); };
     bool smooth = true;
     bool undefined = false;
     bool unsolved = false;
@@ -106,7 +108,8 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
         }
         if (start_.undefined() && !start_.steep())
             return refuse(why, failure_reason::undefined, set, from, x);
-        bool became_rough = smooth && start_.steep();
+        root = start_.steep();
+        bool became_rough = smooth && root;
         I const length = span(from, to);
         I const range = traits::bounds(0.0, traits::upper(length));
         I const times = traits::bounds(from, to);
@@ -200,7 +203,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
                 why.component = i;
             }
         }
-        bool const shortest = h <= 4 * least() ||
+        bool const shortest = h <= 4 * enough() ||
                               (!smooth && resting && h <= enclosure_detail::resting_step(options_));
         if (ratio > 1 && !shortest) {
             if (smooth && !options_.method && step.order < options_.order && ratio < 1e4) {
@@ -211,7 +214,7 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             // At a kink the loss may be in proportion to the length, and stay too large.
             double const shorter =
                 h * std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, smooth ? 0.8 : 0.4);
-            h = smooth ? shorter : std::max(shorter, std::min(h, least()));
+            h = smooth ? shorter : std::max(shorter, std::min(h, enough()));
             if (crosses) { // a shorter step may miss the kink
                 smooth = true;
                 start_order = 0;

@@ -77,7 +77,9 @@ parametric_flow<Model, Centre>::short_enough(mask trying, C const& h, std::size_
     for (std::size_t l = 0; l < width; ++l) {
         if (lanes_[l].forced) forced = forced | side_by_side::only(l);
     }
-    C const least = each_lane<C>([&](std::size_t l) { return 4 * shortest(l); });
+    C const least = each_lane<C>([&](std::size_t l) {
+        return 4 * (lanes_[l].root ? enclosure_detail::step_off_root(options_) : shortest(l));
+    });
     mask const enough =
         order > 0 ? (h <= least) & !forced
                   : (h <= least) | (resting & (h <= C(enclosure_detail::resting_step(options_))));

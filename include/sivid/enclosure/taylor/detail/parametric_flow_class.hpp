@@ -215,6 +215,7 @@ private:
         bool held = false;      ///< by `gentle`
         bool rough = false;     ///< at a kink: the next attempt is of first order
         bool forced = false;    ///< the shortest step, although the coefficients suggest less
+        bool root = false;      ///< the set touches one of 0
         bool cut = false;       ///< by a kink: the length says nothing about smooth steps
         double near = infinity; ///< about the longest step that the neighbourhood of a kink allows
         std::size_t crossing = 0; ///< steps of first order since the last smooth one

@@ -212,8 +212,10 @@ private:
             ++k;
         }
     }
-    /// The last time of a measurement in a window, or the first one.
+    /// The last time of a measurement in a window, or the first one. Lengths are often so many gaps
+    /// between samples: what stamps are rounded by must not count.
     [[nodiscard]] static double end_before(record const& samples, double from, double length) {
+        length *= 1 + 1e-9;
         double end = samples.back().time;
         bool any = false;
         for (auto const& m : samples) {

@@ -22,7 +22,7 @@ struct rate_scales {
     std::vector<double> size;               ///< of each rate
     std::vector<double> change;             ///< of each rate from one gap to the next
     std::vector<std::vector<double>> slope; ///< \f$ \max |\partial f_i / \partial x_k| \f$
-    std::vector<double> period;             ///< of the samples [s]
+    std::vector<double> period;             ///< of the samples [time]
 };
 
 /// Size: what the greatest secant over three gaps or the model over its prior allow, whichever is

@@ -194,8 +194,8 @@ proved_motion(bound_model const& model, box const& prior, experiment const& e,
 }
 
 /// By what a state damps itself, \f$ -\partial f_i/\partial x_i \f$, at the middle of the prior and
-/// of the tubes: the median over all cells, at least 0 [1/s]. Weights that grow by it are numbers
-/// along each motion. It proves nothing and need not.
+/// of the tubes: the median over all cells, at least 0 [1/time]. Weights that grow by it are
+/// numbers along each motion. It proves nothing and need not.
 /// @param model  to whose graph the derivative is added
 [[nodiscard]] inline double damping_of(bound_model& model, std::size_t state,
                                        std::vector<observed_motion> const& motions) {

@@ -31,7 +31,7 @@ struct relation_row {
     /// If not empty, the last function is \f$ \phi_0 + \sum_j \bar\theta_j \phi_j + a x_i \f$
     /// with these \f$ \bar\theta_j \f$ (see `combine`).
     std::vector<double> centre;
-    double growth = 0;                 ///< a [1/s]
+    double growth = 0;                 ///< a [1/time]
     std::set<std::size_t> states;      ///< that the functions contain
     std::set<std::size_t> inseparable; ///< parameters that stay in the functions
     bool bounded = true;               ///< all ranges are
@@ -52,7 +52,7 @@ struct window_row {
     double from = 0, to = 0;
     interval difference;     ///< d
     std::vector<interval> a; ///< of functions, then of differences, last \f$ a_0 \f$
-    interval length;         ///< what a constant missing rate would be multiplied with [s]
+    interval length;         ///< what a constant missing rate would be multiplied with [time]
 };
 
 namespace paving_detail {

@@ -47,7 +47,8 @@ private:
 
 /// Notices that the hull of what is left shrinks no more, at two looks one after the other, each of
 /// them when the tests have doubled. One is not enough: a slanting sheet must be cut at all its
-/// ends before a side of it is shorter. And while no test can say anything of boxes as large as
+/// ends before a side of it is shorter: where a box has more than two sides, the second look is
+/// due when the tests have doubled twice. And while no test can say anything of boxes as large as
 /// they are, nothing shrinks because the search has only begun.
 struct hull_rest {
     box last; ///< at the last look
@@ -69,7 +70,7 @@ struct hull_rest {
         }
         if (rests && rested && held(now)) return true;
         rested = rests;
-        next_look = 2 * tests;
+        next_look = (rests && now.size() > 2 ? 4 : 2) * tests;
         last = std::move(now);
         return false;
     }

@@ -289,7 +289,8 @@ private:
         }
         // A box that shrank much is worth another look before it is split.
         double const after = volume(found.rest);
-        if (after < 0.5 * of.volume && after > 0) {
+        using paving_detail::rank_of;
+        if (rank_of(after) < rank_of(0.5 * of.volume) && after > 0) {
             tell(found.rest);
             waiting_.push(std::move(found.rest), after, {std::move(known)});
             return;
