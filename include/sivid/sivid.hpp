@@ -111,13 +111,10 @@
 #include <sivid/enclosure/enclosed_motion.hpp>
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/flow.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/enclosure/observation.hpp>
 #include <sivid/enclosure/options.hpp>
-#include <sivid/enclosure/runge_kutta/implicit_runge_kutta.hpp>
-#include <sivid/enclosure/runge_kutta/implicit_stages.hpp>
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
-#include <sivid/enclosure/runge_kutta/order_conditions.hpp>
 #include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
 #include <sivid/enclosure/sensitivity/sensitive_flow.hpp>
@@ -126,9 +123,10 @@
 #include <sivid/enclosure/set/doubleton.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
+#include <sivid/enclosure/step/step_method.hpp>
+#include <sivid/enclosure/stiff/dissipative_step.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
-#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/trajectory.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/enclosure/uncertain_input.hpp>
@@ -177,7 +175,6 @@
 #include <sivid/paving/run/experiment_run.hpp>
 #include <sivid/paving/run/plain_run.hpp>
 #include <sivid/paving/run/run_reach.hpp>
-#include <sivid/paving/run/runge_kutta_run.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/search/exclusion_proof.hpp>
 #include <sivid/paving/search/frontier.hpp>
