@@ -8,7 +8,7 @@
 #include "sensitivities.hpp"
 
 #include <sivid/enclosure/enclose.hpp>
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/number/decimal.hpp>
 

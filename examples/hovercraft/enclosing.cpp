@@ -3,7 +3,7 @@
 #include "generate.hpp"
 
 #include <sivid/enclosure/enclose.hpp>
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 
 #include <algorithm>
 #include <optional>

@@ -74,6 +74,7 @@
 #include <sivid/model/graph/recorded_map.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/graph/tape.hpp>
+#include <sivid/model/implicit_model.hpp>
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/named_effects.hpp>
@@ -120,11 +121,11 @@
 #include <sivid/enclosure/sensitivity/sensitive_flow.hpp>
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
+#include <sivid/enclosure/series/taylor_expansion.hpp>
 #include <sivid/enclosure/set/doubleton.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
 #include <sivid/enclosure/step/step_method.hpp>
-#include <sivid/enclosure/stiff/dissipative_step.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
 #include <sivid/enclosure/trajectory.hpp>

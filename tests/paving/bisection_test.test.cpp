@@ -2,7 +2,7 @@
 // Algorithms 1 and 2 of the report in every interval type, on the hovercraft and in closed form.
 #include <sivid/paving/bisection_test.hpp>
 
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include "paving/plain_problem.hpp"

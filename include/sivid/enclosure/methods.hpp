@@ -10,7 +10,7 @@
 #include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
 #include <sivid/enclosure/step/step_method.hpp>
-#include <sivid/enclosure/stiff/dissipative_step.hpp>
+#include <sivid/enclosure/stiff/detail/dissipative_step.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The formula of a method as a series in the step: its coefficients agree with the solution's up to
 // the order, its remainder alone shrinks as it should.
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
 
 #include "support/catch.hpp"

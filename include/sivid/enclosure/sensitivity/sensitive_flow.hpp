@@ -4,6 +4,7 @@
 
 #include <sivid/enclosure/series/detail/expansion_tail.hpp>
 #include <sivid/enclosure/series/detail/variation_step.hpp>
+#include <sivid/enclosure/series/taylor_expansion.hpp>
 #include <sivid/enclosure/set/detail/framed_radii.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>

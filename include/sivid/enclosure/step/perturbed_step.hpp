@@ -6,7 +6,6 @@
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/model/graph/tape.hpp>
 #include <sivid/model/series/series.hpp>
-#include <sivid/model/series/taylor_arithmetic.hpp>
 #include <sivid/number/text/needed_given.hpp>
 
 #include <cstddef>

@@ -9,7 +9,6 @@
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
 #include <sivid/enclosure/set/doubleton.hpp>
-#include <sivid/enclosure/step/detail/kink_steps.hpp>
 #include <sivid/enclosure/step/detail/step_length.hpp>
 #include <sivid/enclosure/step/detail/tube_step.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>

@@ -15,8 +15,8 @@
 #include <sivid/enclosure/series/detail/variation_step.hpp>
 #include <sivid/enclosure/series/domain_edge.hpp>
 #include <sivid/enclosure/series/expansion.hpp>
+#include <sivid/enclosure/series/taylor_expansion.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
-#include <sivid/enclosure/step/detail/kink_steps.hpp>
 #include <sivid/enclosure/step/detail/step_length.hpp>
 #include <sivid/enclosure/step/perturbed_step.hpp>
 #include <sivid/model/series/detail/twofold_arithmetic.hpp>

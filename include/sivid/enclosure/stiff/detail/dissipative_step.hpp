@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_ENCLOSURE_STIFF_DISSIPATIVE_STEP_HPP
-#define SIVID_ENCLOSURE_STIFF_DISSIPATIVE_STEP_HPP
+#ifndef SIVID_ENCLOSURE_STIFF_DETAIL_DISSIPATIVE_STEP_HPP
+#define SIVID_ENCLOSURE_STIFF_DETAIL_DISSIPATIVE_STEP_HPP
 
 /// @file
 /// Steps of implicit methods that are long against the time constants of a dissipative problem.
