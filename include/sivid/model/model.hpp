@@ -3,10 +3,10 @@
 #define SIVID_MODEL_MODEL_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/detail/state_range.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +24,23 @@
 #include <vector>
 
 namespace sivid {
+
+/// A state's own range: `8` for \f$ |x| \le 8 \f$, `{0, 5}` for a quantity such as a concentration.
+///   It says where an experiment may start that does not say so itself, and how large the state
+///   is. It says nothing of motions: those of the model may leave it, and are followed there. Where
+///   a proof needs more (`relations` of a diagnosis), what follows from it stands among the
+///   assumptions in numbers.
+struct state_range {
+    double lower = 0, upper = 0;
+
+    constexpr state_range() = default;
+    constexpr state_range(double limit) : lower(-limit), upper(limit) {}
+    constexpr state_range(double low, double high) : lower(low), upper(high) {}
+
+    /// How large the state is, a scale.
+    constexpr operator double() const { return std::max(-lower, upper); }
+    [[nodiscard]] interval range() const { return interval_traits<interval>::bounds(lower, upper); }
+};
 
 /// A fixed-length tuple of scalars, the shape in which a model's functor receives and returns its
 /// states, inputs and outputs: `auto const& [u, v, r] = x;`

@@ -3,7 +3,6 @@
 #define SIVID_ENCLOSURE_STEP_STEP_METHOD_HPP
 
 #include <sivid/enclosure/options.hpp>
-#include <sivid/enclosure/runge_kutta/tableau.hpp>
 #include <sivid/enclosure/set/doubleton.hpp>
 #include <sivid/enclosure/step/detail/tube_step.hpp>
 
