@@ -2,6 +2,7 @@
 #ifndef SIVID_BENCHMARKS_PAVING_MACHINES_HPP
 #define SIVID_BENCHMARKS_PAVING_MACHINES_HPP
 
+#include <sivid/model/implicit_model.hpp>
 #include <sivid/model/model.hpp>
 
 #include <array>

@@ -193,9 +193,9 @@ int check_diagnosed(check_command const& c) {
     sivid::diagnosis_check_options options;
     options.seconds = c.budget.value_or(c.all ? 3600 : 60);
     options.held_out = &held_out;
-    auto how = c.how;
-    how.set = "taylor-model"; // as the provers of a diagnosis
-    apply(how, options.test);
+    if (c.how.method != "taylor")
+        throw bad_request("--method: a diagnosis is checked by Taylor models, which follow the "
+                          "Taylor series; leave it out");
     options.test.keep_going = [] { return !console::interrupted(); };
     auto findings = sivid::check_diagnosis(base, sivid::chosen_effects(catalogue(), data), stored,
                                            options, print);

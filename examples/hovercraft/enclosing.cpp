@@ -3,8 +3,7 @@
 #include "generate.hpp"
 
 #include <sivid/enclosure/enclose.hpp>
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
-#include <sivid/paving/run/runge_kutta_run.hpp>
+#include <sivid/enclosure/methods.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -23,6 +22,14 @@ std::string name_of(sivid::tableau const& method) {
 sivid::carried_set set_of(enclosing const& how) {
     return how.set == "taylor-model" ? sivid::carried_set::taylor_model
                                      : sivid::carried_set::doubleton;
+}
+
+/// @throws bad_request  for a method with Taylor models
+void require_pair(enclosing const& how) {
+    if (how.method != "taylor" && how.set == "taylor-model")
+        throw bad_request("Taylor models follow the Taylor series alone: give --set first-order "
+                          "with --method " +
+                          how.method);
 }
 
 } // namespace
@@ -47,14 +54,15 @@ void apply(enclosing const& how, sivid::enclosure_options& options) {
 }
 
 void apply(enclosing const& how, sivid::run_options& run) {
+    require_pair(how);
     apply(how, static_cast<sivid::enclosure_options&>(run));
     run.set = set_of(how);
-    if (run.method) run.make = &sivid::runge_kutta_run;
 }
 
 sivid::enclosed_motion enclosed(enclosing const& how, std::shared_ptr<sivid::flow const> f,
                                 sivid::box const& start, double duration,
                                 sivid::enclosure_options options) {
+    require_pair(how);
     apply(how, options);
     return sivid::enclose(std::move(f), start, sivid::box{}, 0, duration, set_of(how), options);
 }

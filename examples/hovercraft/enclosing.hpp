@@ -3,6 +3,7 @@
 #define HOVERCRAFT_ENCLOSING_HPP
 
 #include <sivid/enclosure/enclosed_motion.hpp>
+#include <sivid/enclosure/options.hpp>
 #include <sivid/paving/run_options.hpp>
 
 #include <memory>

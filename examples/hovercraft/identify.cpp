@@ -339,10 +339,6 @@ int run(identify_command const& c) {
     auto const digest = sivid::dataset_digest(c.dataset);
     if (c.online && (c.compare || c.algorithm != "contracting"))
         throw bad_request("--online goes with neither --algorithm nor --compare");
-    if (c.online && c.how.method != "taylor" && c.how.set == "taylor-model")
-        throw bad_request("--online carries Taylor models on by the Taylor series alone: give "
-                          "--set first-order with --method " +
-                          c.how.method);
     if (!c.picture.empty())
         static_cast<void>(sivid::index_of(model.about.channels, c.picture, "channel"));
     if (c.online && c.verdict_only) throw bad_request("--online does not go with --verdict-only");

@@ -73,14 +73,8 @@ public:
             at_end_ = tube.at(tube.end_time());
             return;
         }
-        if (c.how.set != "taylor-model") {
-            auto const why =
-                sivid::explain_enclosed_motion(*flow_, start, sivid::box{}, 0, s.duration, options);
-            failure_ = why->message(about_.states[why->failure.component].name, about_.time_unit);
-        } else {
-            auto const& why = *tube.failure();
-            failure_ = why.message(about_.states[why.component].name, about_.time_unit);
-        }
+        auto const& why = *tube.failure();
+        failure_ = why.message(about_.states[why.component].name, about_.time_unit);
     }
 
     [[nodiscard]] std::string trajectory_csv() const {
@@ -233,7 +227,8 @@ private:
         p.initial = start;
         p.end = scenario_.duration;
         auto how = c.how;
-        if (how.set.empty()) how.set = "taylor-model"; // ranges are wide
+        if (how.set.empty()) // ranges are wide
+            how.set = how.method == "taylor" ? "taylor-model" : "first-order";
         sivid::prediction_options options{.cells = 300};
         apply(how, options.run);
         auto const found = sivid::predict(p, options);

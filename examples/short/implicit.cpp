@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion as the textbook has them: a ball on a rod, with the pull that keeps it there.
 #include <sivid/enclosure/enclose.hpp>
+#include <sivid/model/implicit_model.hpp>
 #include <sivid/number/decimal_output.hpp>
 
 #include <iostream>

@@ -26,8 +26,8 @@ struct pendulum {
 
 int main() {
     auto const near_one = hull(0.99_dec, 1.01_dec);
-    auto const motion = enclose(record_model<pendulum>(), {{"l"}, {}}, {near_one, 0}, {near_one}, 0,
-                                3, carried_set::taylor_model, {.method = rk4()});
+    auto const motion =
+        enclose(record_model<pendulum>(), {{"l"}, {}}, {near_one, 0}, {near_one}, 0, 3);
     for (double t = 0; t <= motion.end_time(); t += 0.5) {
         std::cout << t << " s: angle in " << to_string(motion.at(t)[0], 6) << " rad\n";
     }

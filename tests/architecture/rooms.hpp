@@ -25,7 +25,7 @@ inline std::map<std::string_view, std::vector<std::string_view>> const rooms{
     {"model", {"graph", "structure", "series", "change"}},
     {"approximate", {"simulate", "fit", "candidate", "place"}},
     {"enclosure",
-     {"series", "set", "runge_kutta", "stiff", "step", "taylor", "sensitivity", "advice"}},
+     {"series", "set", "step", "runge_kutta", "stiff", "taylor", "sensitivity"}},
     {"paving",
      {"relation", "response", "observer", "run", "search", "products", "contract", "curve", "judge",
       "inflation", "outliers", "online", "identifiability", "static"}},

@@ -9,11 +9,10 @@
 #include "support/systems.hpp"
 #include "support/variational_reference.hpp"
 
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
 #include <sivid/enclosure/sensitivity/sensitive_flow.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
-#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 #include <sivid/enclosure/tube.hpp>
 #if defined(SIVID_HAS_MPFI)
 #include <sivid/number/mp_interval.hpp>
@@ -281,12 +280,6 @@ void all_ways(any_system system, draws& d, tally& done) {
         redraw();
         p.options.order = std::min<std::size_t>(p.options.order, 12);
         by_derivatives(system, p, d, done);
-    }
-    if (!rough) {
-        redraw();
-        p.options.method = random_method(d);
-        p.options.tolerance = std::max(p.options.tolerance, 1e-6);
-        by_set<support::sized_runge_kutta<4, 2>>(system, p, d, done, "Taylor models, Runge-Kutta");
     }
 }
 

@@ -7,7 +7,7 @@
 #include "support/reference.hpp"
 
 #include <sivid/enclosure/enclose.hpp>
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -82,6 +82,7 @@ void check(std::shared_ptr<flow const> const& f, box const& start,
     draws d(11);
     for (auto const set : {carried_set::doubleton, carried_set::taylor_model}) {
         for (auto const& method : methods) {
+            if (method && set == carried_set::taylor_model) continue; // refused
             CAPTURE(static_cast<int>(set), method ? method->name : "taylor");
             enclosure_options options{.tolerance = 1e-6, .relative_tolerance = 1e-3};
             options.method = method;

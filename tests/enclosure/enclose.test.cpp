@@ -2,7 +2,7 @@
 // A turning vector x' = p y, y' = -p x, known in closed form, by every set and kind of method.
 #include <sivid/enclosure/enclose.hpp>
 
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include "support/catch.hpp"
@@ -63,6 +63,7 @@ TEST_CASE("by any set and method, at and over contain every trajectory") {
     for (auto const set : {carried_set::doubleton, carried_set::taylor_model}) {
         for (auto const& method :
              {std::optional<tableau>{}, std::optional{rk4()}, std::optional{gauss4()}}) {
+            if (method && set == carried_set::taylor_model) continue; // refused
             CAPTURE(static_cast<int>(set), method ? method->name : "taylor");
             enclosure_options options{.tolerance = 1e-6, .relative_tolerance = 1e-3};
             options.method = method;
@@ -97,6 +98,13 @@ TEST_CASE("by any set and method, at and over contain every trajectory") {
     CHECK(widest_models < narrowest_first);
 }
 
+TEST_CASE("Taylor models refuse a Runge-Kutta method") {
+    enclosure_options options;
+    options.method = rk4();
+    CHECK_THROWS_WITH(enclose(turning(), starts, speeds, 0, 2, carried_set::taylor_model, options),
+                      ContainsSubstring("'rk4'") && ContainsSubstring("carried_set::doubleton"));
+}
+
 TEST_CASE("over a short time a motion says little more than what it does there") {
     // x = t^3 - 3 t in steps of about one unit, and the same with a parameter.
     auto const cubic = [](auto const& t, auto const&, auto const& p, auto const&) {
@@ -112,6 +120,7 @@ TEST_CASE("over a short time a motion says little more than what it does there")
         for (auto const& method :
              {std::optional<tableau>{}, std::optional{rk4()}, std::optional{gauss4()}}) {
             for (double const r : {0.0, 0.01}) {
+                if (method && set == carried_set::taylor_model) continue; // refused
                 CAPTURE(static_cast<int>(set), method ? method->name : "taylor", r);
                 enclosure_options options{.tolerance = 1e-6, .relative_tolerance = 1e-3};
                 options.maximum_step = 1;
@@ -195,6 +204,7 @@ TEST_CASE("a recorded model needs its names and boxes, and no sizes") {
     for (auto const set : {carried_set::doubleton, carried_set::taylor_model}) {
         for (auto const& method :
              {std::optional<tableau>{}, std::optional{rk4()}, std::optional{gauss4()}}) {
+            if (method && set == carried_set::taylor_model) continue; // refused
             CAPTURE(static_cast<int>(set), method ? method->name : "taylor");
             auto const motion =
                 enclose(model, {{"p"}, {}}, x0, p, 0, 3, set, {.method = method}, held);
@@ -244,9 +254,8 @@ TEST_CASE("between its steps a motion is told in any order, as tight as at their
 }
 
 TEST_CASE("a motion of many steps keeps some of its sets, and is told as well by them") {
-    for (auto const& method : {std::optional<tableau>{}, std::optional{rk4()}}) {
-        enclosure_options options{.tolerance = 1e-9, .maximum_step = 4e-3};
-        options.method = method;
+    {
+        enclosure_options const options{.tolerance = 1e-9, .maximum_step = 4e-3};
         // 3 sets 4 steps apart, 64 of them, and 47 that are 64 apart after four times of thinning
         for (double const end : {0.04, 1.02, 12.0}) {
             auto const motion =
@@ -289,6 +298,7 @@ TEST_CASE("steps are relative to the span, be it a microsecond or days") {
     };
     for (auto const set : {carried_set::doubleton, carried_set::taylor_model}) {
         for (auto const& method : {std::optional<tableau>{}, std::optional{rk4()}}) {
+            if (method && set == carried_set::taylor_model) continue; // refused
             CAPTURE(static_cast<int>(set), method ? method->name : "taylor");
             enclosure_options options{.tolerance = 1e-6, .relative_tolerance = 1e-3};
             options.method = method;

@@ -6,7 +6,6 @@
 #include "support/catch.hpp"
 #include "support/systems.hpp"
 
-#include <sivid/enclosure/advice/detail/failure_advice.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <cstddef>
@@ -58,24 +57,4 @@ TEST_CASE("an enclosed motion is the tube of integrate") {
         CHECK(motion.failure()->time == expected.failure()->time);
     });
     CHECK(ended > 0);
-}
-
-TEST_CASE("why an enclosed motion ends is explained as for trajectories") {
-    bool explained = false;
-    support::for_each_smooth_system([&](auto system) {
-        if (explained) return;
-        auto const f = system.flow();
-        double const end = 2 * system.horizon;
-        enclosure_options options;
-        options.maximum_steps = 4;
-        auto const expected = explain_failure<trajectory<interval>>(
-            *f, for_span(options, end), system.initial, system.parameters, 0, end);
-        auto const found =
-            explain_enclosed_motion(*f, system.initial, system.parameters, 0, end, options);
-        REQUIRE(found.has_value() == expected.has_value());
-        if (!found) return;
-        explained = true;
-        CHECK(found->message("x") == expected->message("x"));
-    });
-    CHECK(explained);
 }

@@ -11,6 +11,7 @@
 #include "../../examples/hovercraft/model.hpp"
 
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/enclosure/tube.hpp>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/enclosure/options.hpp>
+#include <sivid/enclosure/methods.hpp>
 
 #include "support/catch.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tubes against reference trajectories of random members of the boxes.
 #include <sivid/enclosure/tube.hpp>
+#include <sivid/enclosure/methods.hpp>
 
 #include "support/catch.hpp"
 #include "support/sampling.hpp"

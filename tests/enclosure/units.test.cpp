@@ -6,7 +6,7 @@
 #include "support/catch.hpp"
 #include "support/oscillator_in_units.hpp"
 
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -30,7 +30,6 @@ struct way {
 std::vector<way> ways() {
     return {{"Taylor models", carried_set::taylor_model, {}},
             {"doubletons", carried_set::doubleton, {}},
-            {"Taylor models by rk4", carried_set::taylor_model, rk4()},
             {"doubletons by rk4", carried_set::doubleton, rk4()},
             {"doubletons by gauss4", carried_set::doubleton, gauss4()}};
 }

@@ -7,6 +7,7 @@
 #include "support/flow_simulation.hpp"
 
 #include <sivid/enclosure/tube.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/io/dataset/model_names.hpp>
 
 #include <array>

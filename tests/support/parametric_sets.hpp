@@ -7,7 +7,6 @@
 #include "support/taylor_models.hpp"
 
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
-#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -20,11 +19,6 @@ template <std::size_t N, std::size_t D, class C = double>
 struct sized_flow : sivid::parametric_flow<sivid::taylor_model<C>> {
     sized_flow(sivid::flow const& f, sivid::enclosure_options const& options)
         : sivid::parametric_flow<sivid::taylor_model<C>>(f, options, N, D) {}
-};
-template <std::size_t N, std::size_t D>
-struct sized_runge_kutta : sivid::parametric_runge_kutta<> {
-    sized_runge_kutta(sivid::flow const& f, sivid::enclosure_options const& options)
-        : sivid::parametric_runge_kutta<>(f, options, N, D) {}
 };
 
 /// x within P(q), its tail and the generators at this q, componentwise; `slack` covers the

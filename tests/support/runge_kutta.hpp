@@ -6,7 +6,7 @@
 #include "support/power_series.hpp"
 #include "support/rates.hpp"
 
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/measurement/signal.hpp>
 
 #include <cstddef>

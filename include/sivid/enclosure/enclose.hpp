@@ -26,14 +26,14 @@ namespace sivid {
 /// @param from, to  in the unit of time of the model
 /// @param set  first order: cheap, for narrow boxes. Taylor models: tight over wide ones, in any
 ///   number of unknowns (sides with a width), by the degree of `suggested_degree`
-/// @param options  `method` names a Runge-Kutta formula in place of the Taylor series; with Taylor
-///   models it crosses no kinks
+/// @param options  `method` names a Runge-Kutta formula in place of the Taylor series, for sets of
+///   first order
 /// With Taylor models, where they lose more than they keep the states get variables of their own
 /// (`docs/taylor_models.md`, section 2), and about a single start, or where they end early, sets
 /// of first order are carried as well: `enclosed_motion::carried`.
 /// @returns  `at` and `over` for any times of the proved span; where that ends early, `failure()`
-/// @throws std::invalid_argument  for boxes of other sizes, empty or unbounded, or a span that
-///   ends before it begins
+/// @throws std::invalid_argument  for boxes of other sizes, empty or unbounded, a span that ends
+///   before it begins, or a method with Taylor models
 /// @guarantee  every trajectory from the box of starts, for every parameter in its box and inputs
 ///   within their error bounds, lies in what `at` and `over` return
 /// @cost  one integration, or up to three for points and where one ends early; `at` and

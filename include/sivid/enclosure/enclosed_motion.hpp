@@ -104,13 +104,6 @@ private:
     carried_spans carried_;
 };
 
-/// `explain_failure` for the sets that an `enclosed_motion` carries: what could help it.
-/// @returns nothing when the enclosure reaches `to`
-/// @cost  see there
-[[nodiscard]] SIVID_DECL std::optional<advised_failure>
-explain_enclosed_motion(flow const& f, box const& initial, box const& parameters, double from,
-                        double to, enclosure_options const& options = {});
-
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

@@ -3,7 +3,6 @@
 #define SIVID_ENCLOSURE_FAILURE_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/enclosure/options.hpp>
 #include <sivid/model/graph/operation.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/text/nearest_text.hpp>
@@ -13,7 +12,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace sivid {
 
@@ -26,9 +24,6 @@ enum class failure_reason {
     not_finite,   ///< the enclosure became unbounded
     /// the stages of an implicit method could not be proved, however short the step
     unsolved_stages,
-    /// a single trajectory grows beyond all bounds, as far as it could be followed; said by
-    /// `explain_failure` only
-    blow_up,
     cancelled ///< it was told to stop: `enclosure_options::keep_going`
 };
 
@@ -38,11 +33,9 @@ enum class advice {
     higher_order,
     more_steps,
     shorter_steps,
-    other_method,  ///< an explicit one
     other_set,     ///< one that keeps more of the dependence on the unknowns
     higher_degree, ///< of Taylor models that were carried
-    parts_only,    ///< parts of the box go further, others do not
-    nothing        ///< most often since a single trajectory ends there itself
+    nothing
 };
 
 [[nodiscard]] constexpr std::string_view to_string(failure_reason r) {
@@ -59,8 +52,6 @@ enum class advice {
         return "the enclosure became unbounded";
     case failure_reason::unsolved_stages:
         return "the stages of the implicit method have no proven solution";
-    case failure_reason::blow_up:
-        return "a trajectory seems to grow without bound";
     case failure_reason::cancelled:
         return "it was told to stop";
     }
@@ -76,14 +67,10 @@ enum class advice {
         return "allow more steps";
     case advice::shorter_steps:
         return "allow shorter steps or use an explicit method";
-    case advice::other_method:
-        return "use an explicit method";
     case advice::other_set:
         return "use Taylor models";
     case advice::higher_degree:
         return "use Taylor models of a higher degree";
-    case advice::parts_only:
-        return "split the box: parts of it go further, others do not";
     case advice::nothing:
         return "nothing is known to help";
     }
@@ -95,7 +82,6 @@ enum class advice {
 /// split; what is lost, another set may keep; what truly varies can only be split. Whoever carries
 /// sets says what its caller can do: Taylor models `higher_degree` in place of `other_set`, and
 /// `enclose`, which has no degree to be given, `smaller_box`.
-/// `explain_failure` tries it.
 /// @param wide  parameters or initial states have a width
 [[nodiscard]] constexpr advice advise(failure_reason r, bool wide, double spread, double lost) {
     switch (r) {
@@ -103,7 +89,6 @@ enum class advice {
         return advice::more_steps;
     case failure_reason::unsolved_stages:
         return advice::shorter_steps;
-    case failure_reason::blow_up:
     case failure_reason::cancelled:
         return advice::nothing;
     case failure_reason::undefined:
@@ -158,33 +143,6 @@ struct enclosure_failure {
     /// @param time_unit  the model's (`model_description::time_unit`); none: numbers alone
     [[nodiscard]] std::string message(std::string_view state,
                                       std::string_view time_unit = {}) const;
-};
-
-/// How far a remedy was seen to carry the enclosure.
-struct remedy_trial {
-    advice remedy = advice::smaller_box;
-    double share = 1; ///< width of the parts that were tried, of the box's
-    enclosure_options options;
-    /// In the model's unit of time; of parts by the hardest one, as far as halving finds it.
-    double reached = 0;
-    bool further = false;
-};
-
-/// A failure, and what the trials showed.
-struct advised_failure {
-    enclosure_failure failure; ///< its help is that of the trial that reached furthest
-    double end = 0;            ///< the time that was asked for
-    /// Reached by single trajectories with the strongest options: from the middle of the box, and
-    /// from the two corners that move `failure.component` most; of a point the first alone.
-    std::vector<double> members;
-    std::vector<remedy_trial> trials;
-
-    /// One sentence as by the failure itself, and what each trial reached.
-    [[nodiscard]] std::string message(std::string_view state,
-                                      std::string_view time_unit = {}) const;
-
-private:
-    [[nodiscard]] static std::string what(remedy_trial const& t, std::string const& unit);
 };
 
 } // namespace sivid

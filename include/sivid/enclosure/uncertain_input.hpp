@@ -3,7 +3,6 @@
 #define SIVID_ENCLOSURE_UNCERTAIN_INPUT_HPP
 
 #include <sivid/enclosure/series/expansion.hpp>
-#include <sivid/number/taylor_model.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -12,7 +11,7 @@
 namespace sivid {
 
 /// Bounds and symmetric widening of the numbers in which sets are written: intervals, and Taylor
-/// models (in lanes).
+/// models in lanes (taylor_expansion.hpp).
 template <class T>
 struct set_scalar {
     using scalar = double;
@@ -28,19 +27,6 @@ struct set_scalar {
         using traits = interval_traits<T>;
         return std::isfinite(w) ? traits::add(a, traits::bounds(-w, w)) : traits::entire();
     }
-};
-template <class C>
-struct set_scalar<taylor_model<C>> {
-    using model = taylor_model<C>;
-    using scalar = C;
-    static C mag(model const& a) { return a.norm(); }
-    static C upper(model const& a) {
-        return a.c(0) + (a.above() + a.r()) + a.norm() * (8 * model::unit);
-    }
-    static C middle(model const& a) { return a.c(0); }
-    /// @given  m is the middle
-    static C beside(model const& a, C const&) { return (a.above() + a.r()) * a.shape().up; }
-    static model widened(model const& a, C const& w) { return sivid::widened(a, w); }
 };
 
 /// Bounds of the errors of a flow's uncertain inputs at `t`, on the pieces that govern a step from

@@ -6,13 +6,10 @@
 /// Sets of Taylor models, one by one.
 
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
-#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 
 namespace sivid {
 
-template class implicit_stages<taylor_model<double>>;
 template class parametric_flow<taylor_model<double>>;
-template class parametric_flow<taylor_model<double>, runge_kutta_centre<taylor_model<double>>>;
 
 } // namespace sivid
 

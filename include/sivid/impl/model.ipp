@@ -16,6 +16,7 @@
 #include <sivid/model/impl/effect_scope.ipp>
 #include <sivid/model/impl/effects.ipp>
 #include <sivid/model/impl/expression.ipp>
+#include <sivid/model/impl/implicit_model.ipp>
 #include <sivid/model/impl/missing_term.ipp>
 #include <sivid/model/impl/model.ipp>
 #include <sivid/model/impl/named_effects.ipp>

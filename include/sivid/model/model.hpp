@@ -3,12 +3,10 @@
 #define SIVID_MODEL_MODEL_HPP
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/detail/state_range.hpp>
 #include <sivid/model/expression.hpp>
-#include <sivid/model/graph/detail/formula_text.hpp>
-#include <sivid/model/graph/detail/linear_solution.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
 #include <array>
@@ -26,6 +24,23 @@
 #include <vector>
 
 namespace sivid {
+
+/// A state's own range: `8` for \f$ |x| \le 8 \f$, `{0, 5}` for a quantity such as a concentration.
+///   It says where an experiment may start that does not say so itself, and how large the state
+///   is. It says nothing of motions: those of the model may leave it, and are followed there. Where
+///   a proof needs more (`relations` of a diagnosis), what follows from it stands among the
+///   assumptions in numbers.
+struct state_range {
+    double lower = 0, upper = 0;
+
+    constexpr state_range() = default;
+    constexpr state_range(double limit) : lower(-limit), upper(limit) {}
+    constexpr state_range(double low, double high) : lower(low), upper(high) {}
+
+    /// How large the state is, a scale.
+    constexpr operator double() const { return std::max(-lower, upper); }
+    [[nodiscard]] interval range() const { return interval_traits<interval>::bounds(lower, upper); }
+};
 
 /// A fixed-length tuple of scalars, the shape in which a model's functor receives and returns its
 /// states, inputs and outputs: `auto const& [u, v, r] = x;`
@@ -155,7 +170,7 @@ concept explicit_model = requires(M const m, expression t, states_of<M, expressi
 /// equations of motion as textbooks have them, with constraints too. z are the unknowns that
 /// `algebraic` lists, if any; they stand linearly, as Lagrange's multipliers do where constraints
 /// are differentiated until accelerations stand in them (index 1). The equations are solved once,
-/// when the model is recorded (`solve_linear`). @code
+/// when the model is recorded (`implicit_model.hpp`). @code
 ///     template <class T>
 ///     sivid::matrix_of<arm, T> mass(T const& t, states_of<arm, T> const& x, ...) const {
 ///         return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, m11, m12}, {0, 0, m12, m22}}};
@@ -332,63 +347,66 @@ template <class Taken>
 /// @throws std::invalid_argument when the constant is unknown, stands twice, or is no function of
 ///         constants before it, and when its nominal value is not what the formula gives to 0.1 %
 SIVID_DECL void add_derived(recorded_model& model, std::string_view name, expression const& value);
-/// Solves the equations of an implicit model.
-/// @returns  the rates, then the algebraic unknowns
-/// @throws std::invalid_argument  naming the model, where the matrix is singular by its structure
-[[nodiscard]] SIVID_DECL std::vector<expression> solved_rates(recorded_model& model,
-                                                              std::vector<expression> const& mass,
-                                                              std::vector<expression> const& force,
-                                                              std::span<quantity const> algebraic);
 } // namespace model_detail
 
-/// Runs the functor once on the recording scalar.
-/// @throws std::invalid_argument  as `described`
-/// @guarantee evaluating the graph with a sound interval type encloses the functor's real value.
-template <dynamic_model M>
-[[nodiscard]] recorded_model record_model(M const& model = {}) {
-    std::string_view time = "s";
-    if constexpr (requires { M::time_unit; }) time = M::time_unit;
-    recorded_model result;
-    result.about = model_detail::described(std::string_view(M::name), M::states, M::inputs,
-                                           M::channels, M::constants, time);
-    auto& g = result.g;
-    auto const leaves = [&g]<std::size_t N>(operation op, std::array<expression, N>& out) {
-        for (std::size_t i = 0; i < N; ++i) out[i] = expression(g, g.leaf(op, i));
-    };
+namespace model_detail {
+/// The leaves of a model's equations, in the graph of a recorded model.
+template <class M>
+struct leaves_of_model {
+    expression t;
     states_of<M, expression> x;
     constants_of<M, expression> c;
     inputs_of<M, expression> u;
-    leaves(operation::state, x);
-    leaves(operation::constant, c);
-    leaves(operation::input, u);
-    expression const t(g, g.leaf(operation::time, 0));
-    algebraic_of<M, expression> z;
-    if constexpr (explicit_model<M>) {
-        for (auto const& e : model.rate(t, x, c, u)) result.rate.push_back(e.in(g));
-    } else {
-        std::vector<expression> mass, force;
-        for (auto const& row : model.mass(t, x, c, u))
-            mass.insert(mass.end(), row.begin(), row.end());
-        for (auto const& e : model.force(t, x, c, u)) force.push_back(e);
-        std::span<quantity const> further;
-        if constexpr (requires { M::algebraic; }) further = M::algebraic;
-        auto const solved = model_detail::solved_rates(result, mass, force, further);
-        auto const rates = solved.begin() + state_count<M>;
-        for (auto e = solved.begin(); e != rates; ++e) result.rate.push_back(e->in(g));
-        std::copy(rates, solved.end(), z.begin());
+
+    explicit leaves_of_model(graph& g) {
+        auto const enter = [&g]<std::size_t N>(operation op, std::array<expression, N>& out) {
+            for (std::size_t i = 0; i < N; ++i) out[i] = expression(g, g.leaf(op, i));
+        };
+        enter(operation::state, x);
+        enter(operation::constant, c);
+        enter(operation::input, u);
+        t = expression(g, g.leaf(operation::time, 0));
     }
+};
+/// A recorded model without equations.
+template <class M>
+[[nodiscard]] recorded_model unrecorded() {
+    std::string_view time = "s";
+    if constexpr (requires { M::time_unit; }) time = M::time_unit;
+    recorded_model result;
+    result.about =
+        described(std::string_view(M::name), M::states, M::inputs, M::channels, M::constants, time);
+    return result;
+}
+/// Adds what every model has beside its equations.
+/// @param z  the algebraic unknowns
+template <class M>
+void record_outputs(M const& model, leaves_of_model<M> const& at,
+                    algebraic_of<M, expression> const& z, recorded_model& result) {
     auto const outputs = [&] {
-        if constexpr (requires { model.observe(t, x, c, u); }) {
-            return model.observe(t, x, c, u);
+        if constexpr (requires { model.observe(at.t, at.x, at.c, at.u); }) {
+            return model.observe(at.t, at.x, at.c, at.u);
         } else {
-            return model.observe(t, x, c, u, z);
+            return model.observe(at.t, at.x, at.c, at.u, z);
         }
     }();
-    for (auto const& e : outputs) result.observe.push_back(e.in(g));
-    if constexpr (requires { model.derived(c); }) {
-        for (auto const& d : model.derived(c))
-            model_detail::add_derived(result, d.constant, d.value);
+    for (auto const& e : outputs) result.observe.push_back(e.in(result.g));
+    if constexpr (requires { model.derived(at.c); }) {
+        for (auto const& d : model.derived(at.c)) add_derived(result, d.constant, d.value);
     }
+}
+} // namespace model_detail
+
+/// Runs the functor once on the recording scalar. Implicit models: implicit_model.hpp.
+/// @throws std::invalid_argument  as `described`
+/// @guarantee evaluating the graph with a sound interval type encloses the functor's real value.
+template <dynamic_model M>
+    requires explicit_model<M>
+[[nodiscard]] recorded_model record_model(M const& model = {}) {
+    auto result = model_detail::unrecorded<M>();
+    model_detail::leaves_of_model<M> const at(result.g);
+    for (auto const& e : model.rate(at.t, at.x, at.c, at.u)) result.rate.push_back(e.in(result.g));
+    model_detail::record_outputs(model, at, {}, result);
     return result;
 }
 

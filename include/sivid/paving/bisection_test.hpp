@@ -16,9 +16,10 @@ namespace sivid {
 
 /// The test of the report's Algorithms 1 and 2 in any interval type: integrates each experiment
 /// over the box by sets of first order, compares each measurement with the enclosure of its output,
-/// and knows nothing else. Outside: in some experiment more than its budget of outliers certainly
-/// fail, for all starts and inputs; inside: in each all but the budget certainly hold, for all of
-/// them. A budget of 0 is Algorithm 1.
+/// and contracts the box by what the outputs are as functions of it, to first order. Outside: in
+/// some experiment more than its budget of outliers certainly fail, for all starts and inputs;
+/// inside: in each all but the budget certainly hold, for all of them. A budget of 0 is
+/// Algorithm 1.
 /// @tparam I  the type that everything is computed in. Sets of first order are centred on doubles,
 ///   one for each box: the lanes of a pack are integrated one after the other, in `interval`.
 template <interval_scalar I>
@@ -41,20 +42,25 @@ public:
 
     /// @cost  one integration for each experiment and lane, until one excludes the box
     [[nodiscard]] finding<I> operator()(basic_box<I> const& parameters) {
+        using traits = interval_traits<I>;
         finding<I> says{.rest = parameters};
         if constexpr (single_interval<I>) {
-            auto const found = judge(parameters);
-            says.inside = found == box_verdict::inside;
-            says.outside = found == box_verdict::outside;
+            auto const [verdict, rest] = judge(parameters);
+            says.inside = verdict == box_verdict::inside;
+            says.outside = verdict == box_verdict::outside;
+            says.rest = rest;
         } else {
-            for (std::size_t k = 0; k < interval_traits<I>::lanes; ++k) {
-                auto const own = lane_of(parameters, k);
-                if (is_empty(own)) continue;
-                auto const found = judge(own);
+            std::vector<box> rests(traits::lanes);
+            for (std::size_t k = 0; k < traits::lanes; ++k) {
+                rests[k] = lane_of(parameters, k);
+                if (is_empty(rests[k])) continue;
+                auto const [verdict, rest] = judge(rests[k]);
                 auto const bit = lane_mask<I>{1} << k;
-                if (found == box_verdict::inside) says.inside |= bit;
-                if (found == box_verdict::outside) says.outside |= bit;
+                if (verdict == box_verdict::inside) says.inside |= bit;
+                if (verdict == box_verdict::outside) says.outside |= bit;
+                rests[k] = rest;
             }
+            says.rest = side_by_side<I>(rests);
         }
         return says;
     }
@@ -63,23 +69,47 @@ public:
     [[nodiscard]] bool cancelled() const { return options_.cancelled(); }
 
 private:
-    [[nodiscard]] box_verdict judge(basic_box<scalar> const& parameters) {
-        bool inside = true;
+    struct judged {
+        box_verdict verdict = box_verdict::undecided;
+        basic_box<scalar> rest;
+    };
+
+    /// One experiment after the other, each over what those before left of the box. All of the box
+    /// is inside where each explains it without contracting it.
+    [[nodiscard]] judged judge(basic_box<scalar> const& parameters) {
+        judged all{box_verdict::inside, parameters};
         for (std::size_t e = 0; e < runs_.size(); ++e) {
             auto const budget = problem_->experiments[e].outliers;
             auto const& samples = runs_[e]->samples();
-            std::size_t hits = 0, fails = 0;
-            runs_[e]->each(starts_[e], parameters,
-                           [&](std::size_t k, observation<scalar> const& seen) {
-                               if (!seen.defined) return true;
-                               if (lies_in(seen.value, samples[k].bound)) ++hits;
-                               if (sivid::misses(seen.value, samples[k].bound)) ++fails;
-                               return fails <= budget;
-                           });
-            if (fails > budget) return box_verdict::outside;
-            inside = inside && hits + budget >= samples.size();
+            std::size_t fails = 0;
+            auto const known = runs_[e]->outputs_while(
+                starts_[e], all.rest, [&](std::size_t k, observation<scalar> const& seen) {
+                    if (seen.defined && sivid::misses(seen.value, samples[k].bound)) ++fails;
+                    return fails <= budget;
+                });
+            auto const says = judge_deviations(known, samples, known.deviation, budget);
+            if (says.finding == run_finding::refuted) return {box_verdict::outside, all.rest};
+            if (says.finding == run_finding::explained) continue;
+            all.verdict = box_verdict::undecided;
+            if (!contract(all.rest, known, says.left)) return {box_verdict::outside, all.rest};
         }
-        return inside ? box_verdict::inside : box_verdict::undecided;
+        return all;
+    }
+    /// Parameters become what a run left of them.
+    /// @returns  whether any are left
+    [[nodiscard]] static bool contract(basic_box<scalar>& parameters,
+                                       plain_outputs<scalar> const& known,
+                                       basic_box<scalar> const& left) {
+        using traits = interval_traits<scalar>;
+        auto const states = left.size() - parameters.size();
+        for (std::size_t j = 0; j < parameters.size(); ++j) {
+            auto const own =
+                traits::add(left[states + j], traits::point(known.parameter_centre[j]));
+            auto const both = traits::intersect(parameters[j], own);
+            if (traits::is_empty(both)) return false;
+            parameters[j] = both;
+        }
+        return true;
     }
 
     identification_problem const* problem_;

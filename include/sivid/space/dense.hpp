@@ -28,10 +28,6 @@ namespace sivid {
 [[nodiscard]] SIVID_DECL Eigen::MatrixXd approximate_least_squares(Eigen::MatrixXd const& a,
                                                                    Eigen::MatrixXd const& b);
 
-/// The orthogonal factor Q of A = Q R, square, of as many rows as A.
-/// @cost  4/3 n^3
-[[nodiscard]] SIVID_DECL Eigen::MatrixXd approximate_orthogonal(Eigen::MatrixXd const& a);
-
 /// An orthonormal basis of what is orthogonal to all columns of A; A has at least one.
 /// @cost  4/3 n^3
 [[nodiscard]] SIVID_DECL Eigen::MatrixXd approximate_complement(Eigen::MatrixXd const& a);

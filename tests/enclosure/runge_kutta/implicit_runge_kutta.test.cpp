@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The formula of an implicit method as a series in the step, its local error on its own, orders of
 // convergence, and enclosures of whole trajectories.
-#include <sivid/enclosure/runge_kutta/implicit_runge_kutta.hpp>
+#include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

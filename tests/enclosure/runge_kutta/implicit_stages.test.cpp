@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stages of implicit methods: existence and uniqueness over points, boxes and ranges of the step,
 // their series in the step, the linear systems, and that no proof is claimed where there is none.
-#include <sivid/enclosure/runge_kutta/implicit_stages.hpp>
+#include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The order conditions of all rooted trees: in interval arithmetic, tightly, and in 50 digits by an
 // evaluation of its own; one order more must fail.
-#include <sivid/enclosure/runge_kutta/order_conditions.hpp>
 
 #include "support/catch.hpp"
 #include "support/runge_kutta.hpp"
 
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
+#include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
 
 #include <functional>
 

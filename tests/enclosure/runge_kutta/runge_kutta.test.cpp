@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The formula of a method as a series in the step: its coefficients agree with the solution's up to
 // the order, its remainder alone shrinks as it should.
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/enclosure/runge_kutta/runge_kutta.hpp>
 
 #include "support/catch.hpp"
@@ -129,7 +129,7 @@ TEST_CASE("one step of fixed length: the error has the method's order and is enc
         std::vector<double> widths;
         for (double const h : {0.2, 0.1, 0.05}) {
             enclosure_options o;
-            o.method = method;
+            o.method = for_steps(method);
             o.tolerance = 1; // no limit but the length
             o.maximum_step = h;
             auto const tube = integrate<interval>(f, box{interval(1.0)}, box{}, 0, h, o);
@@ -152,7 +152,7 @@ TEST_CASE("a user's tableau encloses all systems") {
         system.initial = point_box(d.in(system.initial));
         for (auto const& method : {kutta3(), three_eighths(), euler()}) {
             enclosure_options o;
-            o.method = method;
+            o.method = for_steps(method);
             o.tolerance = method.order == 1 ? 1e-3 : 1e-6;
             auto const tube =
                 integrate<interval>(system.flow(), system.initial,

@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/power_series.hpp"
 
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/number/interval.hpp>
 
 using namespace sivid;

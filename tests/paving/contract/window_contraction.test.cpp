@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/paving/contract/window_contraction.hpp>
 
+#include <sivid/enclosure/methods.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/judge/detail/prior_contraction.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>

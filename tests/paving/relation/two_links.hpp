@@ -5,6 +5,7 @@
 
 #include "diagnosis/planted_motion.hpp"
 
+#include <sivid/model/implicit_model.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/problem.hpp>
 

@@ -8,7 +8,6 @@
 #include <sivid/enclosure/set/detail/fresh_starts.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
-#include <sivid/enclosure/taylor/parametric_runge_kutta.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
@@ -27,10 +26,9 @@ namespace enclosure_detail {
 
 /// A family by Taylor models. Sets are kept on the way. What is said of a time between them is a
 /// short run of its own from the one before, which ends there: as tight as at the ends of steps.
-/// @tparam Run  `parametric_flow<>` or `parametric_runge_kutta<>`
-template <class Run>
 class taylor_motion final : public motion_between_spans {
-    using set_type = typename Run::set_type;
+    using run_type = parametric_flow<>;
+    using set_type = run_type::set_type;
 
 public:
     taylor_motion(std::shared_ptr<flow const> f, box initial, box parameters, double from,
@@ -98,7 +96,7 @@ private:
     static constexpr std::size_t most_terms = 8;
 
     /// Steps until the end, or a failure.
-    void carry(std::unique_ptr<Run> run, double to) {
+    void carry(std::unique_ptr<run_type> run, double to) {
         while (run->time() < to) {
             if (run->time() >= fresh_ && worn(run->set())) run->resume(fresh(run->set()));
             keep(run->set());
@@ -131,8 +129,8 @@ private:
         again->carry(std::move(run), to);
         return again;
     }
-    /// The same to the end whatever polynomials lose, where they lose it for good, by an exponent that
-    /// is not known for instance: states within their own ranges still say something.
+    /// The same to the end whatever polynomials lose, where they lose it for good, by an exponent
+    /// that is not known for instance: states within their own ranges still say something.
     /// @returns  nothing where that cannot help
     [[nodiscard]] std::shared_ptr<taylor_motion> regardless(double to) const {
         if (!failure_ || failure_->reason != failure_reason::too_wide) return nullptr;
@@ -184,14 +182,14 @@ private:
         return set ? intersect(set->hull(), swept_at(t)) : swept_at(t);
     }
     /// @param time  of the sets that it is for
-    [[nodiscard]] std::unique_ptr<Run> begin(double time) const {
+    [[nodiscard]] std::unique_ptr<run_type> begin(double time) const {
         auto const& shape = time >= fresh_ ? fresh_shape() : shape_of(starts_and_parameters());
-        auto run = std::make_unique<Run>(*flow_, options_, shape.variables, shape.degree);
+        auto run = std::make_unique<run_type>(*flow_, options_, shape.variables, shape.degree);
         run->begin(from_, initial_, parameters_);
         return run;
     }
     /// A run at time t; nothing where no other steps than those that were made are proved.
-    [[nodiscard]] std::unique_ptr<Run> run_to(double t) const {
+    [[nodiscard]] std::unique_ptr<run_type> run_to(double t) const {
         auto const& set = kept_before(t);
         auto run = begin(set.time);
         run->resume(set);
@@ -296,11 +294,11 @@ private:
 /// By Taylor models, and where these are sets about a single point, or end early, by sets of first
 /// order, too: over points they lose less to roundings as often as not, and over boxes there are
 /// functions that polynomials fail where slopes do not. They get twice the steps.
-template <class Run>
-[[nodiscard]] enclosed_motion enclose_by_all(std::shared_ptr<flow const> const& f,
-                                             box const& initial, box const& parameters, double from,
-                                             double to, enclosure_options const& options) {
-    auto motion = taylor_motion<Run>::run(f, initial, parameters, from, to, options);
+[[nodiscard]] inline enclosed_motion enclose_by_all(std::shared_ptr<flow const> const& f,
+                                                    box const& initial, box const& parameters,
+                                                    double from, double to,
+                                                    enclosure_options const& options) {
+    auto motion = taylor_motion::run(f, initial, parameters, from, to, options);
     bool const point = normalised_unknowns(initial, parameters).variables == 0;
     bool const stopped = motion.failure() && motion.failure()->reason == failure_reason::cancelled;
     if (stopped || (motion.complete() && !point)) return motion;
@@ -323,9 +321,11 @@ SIVID_DECL enclosed_motion enclose(std::shared_ptr<flow const> f, box const& ini
     if (!(from <= to))
         throw std::invalid_argument("enclose: the end, " + nearest_text(to) +
                                     ", lies before the begin, " + nearest_text(from));
-    return options.method
-               ? enclose_by_all<parametric_runge_kutta<>>(f, initial, parameters, from, to, options)
-               : enclose_by_all<parametric_flow<>>(f, initial, parameters, from, to, options);
+    if (options.method)
+        throw std::invalid_argument(
+            "enclose: Taylor models follow the Taylor series, not the method '" +
+            options.method->name + "'; sets of first order (carried_set::doubleton) take it");
+    return enclose_by_all(f, initial, parameters, from, to, options);
 }
 
 SIVID_DECL enclosed_motion enclose(recorded_model const& model, parameter_choice const& choice,

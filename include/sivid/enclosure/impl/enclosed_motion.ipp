@@ -5,14 +5,11 @@
 #include <sivid/enclosure/enclosed_motion.hpp>
 
 #include <sivid/compiled.hpp>
-#include <sivid/enclosure/advice/detail/failure_advice.hpp>
-#include <sivid/enclosure/trajectory.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -54,13 +51,6 @@ SIVID_DECL box enclosed_motion::over(double from, double to) const {
 SIVID_DECL tube<interval> const& enclosed_motion::steps() const {
     if (!tube_) throw std::logic_error("enclosed_motion: its sets are not of first order");
     return *tube_;
-}
-
-SIVID_DECL std::optional<advised_failure>
-explain_enclosed_motion(flow const& f, box const& initial, box const& parameters, double from,
-                        double to, enclosure_options const& options) {
-    return explain_failure<trajectory<interval>>(f, for_span(options, to - from), initial,
-                                                 parameters, from, to);
 }
 
 } // namespace sivid

@@ -33,19 +33,26 @@ struct surd {
     }
 };
 
+/// Makes what steps by a method need: `step_method_maker` (step/step_method.hpp), for some types of
+/// intervals.
+struct any_step_method_maker {
+    virtual ~any_step_method_maker() = default;
+};
+
 /// A Runge-Kutta method: \f$ k_i = f(t + c_i h, x + h \sum_j a_{ij} k_j) \f$,
 /// \f$ x^+ = x + h \sum_i b_i k_i \f$.
 ///   Row i of `a` has i entries in an explicit method, and as many as there are stages in an
 ///   implicit one.
-/// @given the method has the stated order. `require_order` of `order_conditions.hpp` refuses
-///        statements that interval arithmetic disproves; the tests check the shipped ones in 50
-///        digits.
+/// @given the method has the stated order. `require_order` (runge_kutta.hpp) refuses statements
+///        that interval arithmetic disproves; the tests check the shipped ones in 50 digits.
 struct tableau {
     std::string name;
     std::size_t order = 1;
     std::vector<std::vector<surd>> a;
     std::vector<surd> b;
     std::vector<surd> c;
+    /// Null: coefficients alone. Methods that options name have it (`for_steps` of methods.hpp).
+    any_step_method_maker const* steps = nullptr;
 
     [[nodiscard]] std::size_t stages() const { return b.size(); }
 
@@ -78,65 +85,6 @@ private:
         return !b.empty() && a.size() == b.size() && c.size() == b.size() && order >= 1;
     }
 };
-
-/// Runge's method of order 2.
-[[nodiscard]] inline tableau explicit_midpoint() {
-    return {"explicit midpoint", 2, {{}, {{1, 2}}}, {{0, 1}, {1, 1}}, {{0, 1}, {1, 2}}};
-}
-
-/// Heun's method of order 2.
-[[nodiscard]] inline tableau heun() {
-    return {"heun", 2, {{}, {{1, 1}}}, {{1, 2}, {1, 2}}, {{0, 1}, {1, 1}}};
-}
-
-/// Kutta's method of order 3.
-[[nodiscard]] inline tableau kutta3() {
-    return {"kutta3",
-            3,
-            {{}, {{1, 2}}, {{-1, 1}, {2, 1}}},
-            {{1, 6}, {2, 3}, {1, 6}},
-            {{0, 1}, {1, 2}, {1, 1}}};
-}
-
-/// The classical method of order 4.
-[[nodiscard]] inline tableau rk4() {
-    return {"rk4",
-            4,
-            {{}, {{1, 2}}, {{0, 1}, {1, 2}}, {{0, 1}, {0, 1}, {1, 1}}},
-            {{1, 6}, {1, 3}, {1, 3}, {1, 6}},
-            {{0, 1}, {1, 2}, {1, 2}, {1, 1}}};
-}
-
-/// The method of order 5 in the pair of Dormand and Prince, six stages.
-/// @ref  Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I (1993), table II.5.2
-[[nodiscard]] inline tableau dormand_prince5() {
-    return {"dormand-prince5",
-            5,
-            {{},
-             {{1, 5}},
-             {{3, 40}, {9, 40}},
-             {{44, 45}, {-56, 15}, {32, 9}},
-             {{19372, 6561}, {-25360, 2187}, {64448, 6561}, {-212, 729}},
-             {{9017, 3168}, {-355, 33}, {46732, 5247}, {49, 176}, {-5103, 18656}}},
-            {{35, 384}, {0, 1}, {500, 1113}, {125, 192}, {-2187, 6784}, {11, 84}},
-            {{0, 1}, {1, 5}, {3, 10}, {4, 5}, {8, 9}, {1, 1}}};
-}
-
-/// Butcher's method of order 6, seven stages.
-/// @ref  Butcher, J. Austral. Math. Soc. 4 (1964)
-[[nodiscard]] inline tableau butcher6() {
-    return {"butcher6",
-            6,
-            {{},
-             {{1, 3}},
-             {{0, 1}, {2, 3}},
-             {{1, 12}, {1, 3}, {-1, 12}},
-             {{-1, 16}, {9, 8}, {-3, 16}, {-3, 8}},
-             {{0, 1}, {9, 8}, {-3, 8}, {-3, 4}, {1, 2}},
-             {{9, 44}, {-9, 11}, {63, 44}, {18, 11}, {0, 1}, {-16, 11}}},
-            {{11, 120}, {0, 1}, {27, 40}, {27, 40}, {-4, 15}, {-4, 15}, {11, 120}},
-            {{0, 1}, {1, 3}, {2, 3}, {1, 3}, {1, 2}, {1, 2}, {1, 1}}};
-}
 
 } // namespace sivid
 

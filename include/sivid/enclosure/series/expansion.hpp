@@ -3,7 +3,6 @@
 #define SIVID_ENCLOSURE_SERIES_EXPANSION_HPP
 
 #include <sivid/enclosure/flow.hpp>
-#include <sivid/enclosure/series/detail/variation_columns.hpp>
 #include <sivid/model/series/series.hpp>
 #include <sivid/number/pack/lanes.hpp>
 #include <sivid/space/box.hpp>
@@ -54,18 +53,11 @@ struct input_pieces {
 };
 
 namespace enclosure_detail {
-/// What computes V with its columns side by side, where the lanes are not taken by boxes.
+/// What computes V with its columns side by side, where the lanes are not taken by boxes
+/// (taylor_expansion.hpp).
 template <class T>
 struct columns_of {
     struct type {};
-};
-template <>
-struct columns_of<taylor_model<double>> {
-    using type = variation_columns;
-    static type make(flow const& f, tape const& program, std::size_t entries, std::size_t columns,
-                     std::size_t orders, size_of_values<taylor_model<double>> const& values) {
-        return {f, program, entries, columns, orders, *values.shape};
-    }
 };
 } // namespace enclosure_detail
 

@@ -4,9 +4,9 @@
 
 #include <sivid/enclosure/failure.hpp>
 #include <sivid/enclosure/normalised_unknowns.hpp>
-#include <sivid/enclosure/set/detail/framed_box.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/space/frame/detail/common_frame.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,98 @@
 #include <vector>
 
 namespace sivid {
+
+namespace enclosure_detail {
+/// By what states are measured: sizes of theirs, but 1 for one that is beyond 1e100, below 1e-100
+/// or no number.
+template <class C>
+[[nodiscard]] std::vector<C> fair_units(std::vector<C> const& sizes) {
+    std::vector<C> units;
+    for (auto const& size : sizes) {
+        auto const fair = (size > C(1e-100)) & (size < C(1e100));
+        units.push_back(lane_traits<C>::select(fair, size, C(1.0)));
+    }
+    return units;
+}
+
+/// A box in an almost orthogonal frame \f$ Q \f$ that contains \f$ \sum_j g_j(q) \xi_j \f$ for all
+/// q and \f$ \xi \in [-1,1]^m \f$ (`docs/taylor_models.md`, section 2, "Reduction").
+/// @tparam Model  of the entries of g_j, with radius 0
+template <class Model>
+class framed_box {
+    using C = typename Model::scalar;
+    using side_by_side = lane_traits<C>;
+    using column = std::vector<Model>;
+
+public:
+    /// @param first, last  of the columns g_j, with an entry for each state
+    /// @param sizes  one for each state: the frame is orthogonal in `fair_units` of them
+    /// @param score  sizes of directions in common, see `common_frame`
+    template <class Iterator, class Score>
+    framed_box(Iterator first, Iterator last, std::vector<C> const& sizes, Score const& score)
+        : unit_(fair_units(sizes)), sides_(sizes.size()) {
+        auto const n = sizes.size();
+        std::vector<std::vector<C>> directions;
+        double up = 1; // enough for the sums over the terms of an entry
+        std::size_t count = 0;
+        for (auto g = first; g != last; ++g, ++count) {
+            auto& d = directions.emplace_back(n);
+            for (std::size_t i = 0; i < n; ++i) {
+                d[i] = (*g)[i].c()[0] / unit_[i];
+                up = std::max(up, (*g)[i].shape().up);
+            }
+        }
+        frame_ = common_frame(std::move(directions), score);
+        for (auto g = first; g != last; ++g) add(*g, up);
+        for (auto& s : sides_) s = s * (1 + 8 * static_cast<double>(count + 4) * Model::unit);
+    }
+
+    /// Half the length of the side along axis k, in units.
+    [[nodiscard]] C const& side(std::size_t k) const { return sides_[k]; }
+    /// The vector from the middle to the side, as doubles.
+    /// @param lost  for each state: what their roundings are at most is added
+    [[nodiscard]] std::vector<C> edge(std::size_t k, std::vector<C>& lost) const {
+        std::vector<C> e(unit_.size());
+        for (std::size_t i = 0; i < e.size(); ++i) {
+            e[i] = frame_.axis[k][i] * sides_[k] * unit_[i];
+            lost[i] += (side_by_side::abs(e[i]) * (2 * Model::unit) + Model::tiny) *
+                       (1 + 64 * Model::unit);
+        }
+        return e;
+    }
+
+private:
+    /// The coordinates of a column in the frame are \f$ (1 + R)^{-1} Q^T g \f$ with |R| <= defect.
+    /// Quotient, product and n - 1 sums of a term are rounded: by less than (n + 4) units together.
+    void add(column const& g, double up) {
+        auto const n = unit_.size();
+        std::vector<C> along(n);
+        C most_along{};
+        std::size_t terms = 1;
+        for (auto const& entry : g) terms = std::max(terms, entry.terms());
+        for (std::size_t k = 0; k < n; ++k) {
+            C sum{}, mass{};
+            for (std::size_t m = 0; m < terms; ++m) {
+                C c{};
+                for (std::size_t i = 0; i < n; ++i) {
+                    if (m < g[i].terms()) c += frame_.axis[k][i] * (g[i].c(m) / unit_[i]);
+                }
+                sum += side_by_side::abs(c);
+            }
+            for (std::size_t i = 0; i < n; ++i) {
+                mass += side_by_side::abs(frame_.axis[k][i]) * (g[i].norm() / unit_[i]);
+            }
+            along[k] = sum * up + mass * (static_cast<double>(n + 4) * Model::unit) + Model::tiny;
+            most_along = side_by_side::max(along[k], most_along);
+        }
+        for (std::size_t k = 0; k < n; ++k) sides_[k] += along[k] + frame_.defect * most_along;
+    }
+
+    std::vector<C> unit_;
+    lane_frame<C> frame_;
+    std::vector<C> sides_;
+};
+} // namespace enclosure_detail
 
 namespace enclosure_detail {
 /// Writes one side's model into a lane.
@@ -205,7 +297,8 @@ void parametric_set<Model>::reduce(std::size_t most, std::vector<C>& lost, mask 
     if (columns.size() <= most) return;
     auto const n = centre.size();
     measure();
-    auto const& unit = reach; // so that no unit of a state decides on the frame
+    // By what each has lost, so that no unit of a state decides on the frame.
+    auto const unit = enclosure_detail::fair_units(reach);
     std::vector<C> length(columns.size());
     for (std::size_t j = 0; j < columns.size(); ++j) {
         for (std::size_t i = 0; i < n; ++i) length[j] += columns[j][i].norm() / unit[i];

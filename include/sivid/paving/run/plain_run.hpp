@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,10 +51,19 @@ public:
     /// All outputs for all starts and parameters of the boxes, up to where the enclosure ends.
     /// @guarantee  every output of every trajectory from the boxes is in the forms given
     [[nodiscard]] plain_outputs<I> operator()(box const& starts, box const& parameters) {
+        return outputs_while(box_in<I>(starts), box_in<I>(parameters),
+                             [](std::size_t, observation<I> const&) { return true; });
+    }
+
+    /// The same up to the first output at which `go_on` says false.
+    /// @param go_on  (index of the measurement, `observation<I>`)
+    template <class GoOn>
+    [[nodiscard]] plain_outputs<I>
+    outputs_while(basic_box<I> const& starts, basic_box<I> const& parameters, GoOn const& go_on) {
         plain_outputs<I> result;
-        each(box_in<I>(starts), box_in<I>(parameters), [&](std::size_t, observation<I> const& o) {
+        each(starts, parameters, [&](std::size_t k, observation<I> const& o) {
             result.outputs.push_back(o);
-            return true;
+            return go_on(k, o);
         });
         result.deviation = run_->ensemble().deviation;
         result.parameter_centre = run_->ensemble().parameter_centre;
@@ -97,14 +107,16 @@ enum class run_finding {
 
 namespace paving_detail {
 
-/// Whether linear contraction of r_0 by the open measurements, at most `spare` of which may fail,
-/// leaves nothing. In each coordinate a feasible point satisfies all but `spare` of the bounds, so
-/// it is at least the (spare + 1)-th largest lower one.
+/// \f$ r_0 \f$ contracted by the open measurements, at most `spare` of which may fail. In each
+/// coordinate a feasible point satisfies all but `spare` of the bounds, so it is at least the
+/// (spare + 1)-th largest lower one.
 /// @param columns  the coordinates of r_0 that are not 0
+/// @returns  nothing where no point is left
 template <class I>
-bool contracts_to_nothing(plain_outputs<I> const& known, record const& samples,
-                          std::vector<std::size_t> const& open, basic_box<I> d,
-                          std::vector<std::size_t> const& columns, std::size_t spare) {
+[[nodiscard]] std::optional<basic_box<I>>
+contracted(plain_outputs<I> const& known, record const& samples,
+           std::vector<std::size_t> const& open, basic_box<I> d,
+           std::vector<std::size_t> const& columns, std::size_t spare) {
     using traits = interval_traits<I>;
     std::vector<I> terms(columns.size());
     for (int sweep = 0; sweep < 3; ++sweep) {
@@ -134,34 +146,35 @@ bool contracts_to_nothing(plain_outputs<I> const& known, record const& samples,
         for (std::size_t n = 0; n < columns.size(); ++n) {
             double const low = largest_after(std::move(lows[n]), spare, -HUGE_VAL);
             double const high = -largest_after(std::move(highs[n]), spare, -HUGE_VAL);
-            if (low > high) return true;
+            if (low > high) return std::nullopt;
             auto& own = d[columns[n]];
             I const less = traits::intersect(own, traits::bounds(low, high));
-            if (traits::is_empty(less)) return true;
+            if (traits::is_empty(less)) return std::nullopt;
             shrank = shrank || traits::width(less) < 0.9 * traits::width(own);
             own = less;
         }
         if (!shrank) break;
     }
-    return false;
+    return d;
 }
 
 } // namespace paving_detail
 
-/// Decides a part of a region by what is known of the region.
-/// @param part      parameters, a subset of the region's; all starts of the region count
-/// @param outliers  how many measurements may fail
+/// What one experiment says of a part of a region, and the deviations that are left of the part.
 template <class I>
-[[nodiscard]] run_finding decide(plain_outputs<I> const& known, record const& samples,
-                                 box const& part, std::size_t outliers) {
+struct run_judgement {
+    run_finding finding = run_finding::open;
+    basic_box<I> left; ///< \f$ r_0 \f$, states first, where the finding is open
+};
+
+/// Judges deviations, a part of the region's, by what is known of the region.
+/// @param outliers  how many measurements may fail
+/// @guarantee  no point beyond `left` has at most `outliers` measurements that fail
+template <class I>
+[[nodiscard]] run_judgement<I> judge_deviations(plain_outputs<I> const& known,
+                                                record const& samples, basic_box<I> d,
+                                                std::size_t outliers) {
     using traits = interval_traits<I>;
-    auto d = known.deviation;
-    auto const states = d.size() - part.size();
-    for (std::size_t j = 0; j < part.size(); ++j) {
-        auto const own = traits::sub(traits::bounds(part[j].lower(), part[j].upper()),
-                                     traits::point(known.parameter_centre[j]));
-        d[states + j] = traits::intersect(d[states + j], own);
-    }
     std::vector<std::size_t> columns;
     for (std::size_t c = 0; c < d.size(); ++c) {
         if (traits::mag(d[c]) != 0) columns.push_back(c);
@@ -186,12 +199,29 @@ template <class I>
             open.push_back(k);
         }
     }
-    if (misses > outliers) return run_finding::refuted;
-    if (hits + outliers >= samples.size()) return run_finding::explained;
-    if (paving_detail::contracts_to_nothing(known, samples, open, d, columns, outliers - misses)) {
-        return run_finding::refuted;
+    if (misses > outliers) return {run_finding::refuted, {}};
+    if (hits + outliers >= samples.size()) return {run_finding::explained, {}};
+    auto left =
+        paving_detail::contracted(known, samples, open, std::move(d), columns, outliers - misses);
+    if (!left) return {run_finding::refuted, {}};
+    return {run_finding::open, std::move(*left)};
+}
+
+/// Decides a part of a region by what is known of the region.
+/// @param part      parameters, a subset of the region's; all starts of the region count
+/// @param outliers  how many measurements may fail
+template <class I>
+[[nodiscard]] run_finding decide(plain_outputs<I> const& known, record const& samples,
+                                 box const& part, std::size_t outliers) {
+    using traits = interval_traits<I>;
+    auto d = known.deviation;
+    auto const states = d.size() - part.size();
+    for (std::size_t j = 0; j < part.size(); ++j) {
+        auto const own = traits::sub(traits::bounds(part[j].lower(), part[j].upper()),
+                                     traits::point(known.parameter_centre[j]));
+        d[states + j] = traits::intersect(d[states + j], own);
     }
-    return run_finding::open;
+    return judge_deviations(known, samples, std::move(d), outliers).finding;
 }
 
 } // namespace sivid

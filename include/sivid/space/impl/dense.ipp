@@ -30,10 +30,6 @@ SIVID_DECL Eigen::MatrixXd approximate_least_squares(Eigen::MatrixXd const& a,
     return a.colPivHouseholderQr().solve(b);
 }
 
-SIVID_DECL Eigen::MatrixXd approximate_orthogonal(Eigen::MatrixXd const& a) {
-    return a.householderQr().householderQ();
-}
-
 SIVID_DECL Eigen::MatrixXd approximate_complement(Eigen::MatrixXd const& a) {
     auto const qr = a.colPivHouseholderQr();
     Eigen::MatrixXd const q = qr.householderQ();

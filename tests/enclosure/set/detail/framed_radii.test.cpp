@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random products of matrices: the radii contain every product of members, in every rounding mode,
 // and are hardly wider than those of intervals.
-#include <sivid/enclosure/set/detail/framed_radii.hpp>
+#include <sivid/enclosure/sensitivity/sensitive_flow.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/enclosure/step/detail/perturbation_bound.hpp>
+#include <sivid/enclosure/step/perturbed_step.hpp>
 
 #include "support/catch.hpp"
 #include "support/matrix_exponential.hpp"

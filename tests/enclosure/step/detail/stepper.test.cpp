@@ -2,6 +2,7 @@
 // One proved step, its parts taken one by one: a-priori enclosure, derivative bound, set inside the
 // step, with all kinds of orders.
 #include <sivid/enclosure/step/detail/stepper.hpp>
+#include <sivid/enclosure/methods.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Boxes that no solution leaves: reference trajectories stay in, for steps of all lengths.
-#include <sivid/enclosure/stiff/detail/invariant_box.hpp>
+#include <sivid/enclosure/stiff/detail/dissipative_step.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

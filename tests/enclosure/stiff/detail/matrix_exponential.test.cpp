@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/enclosure/stiff/detail/matrix_exponential.hpp>
+#include <sivid/enclosure/stiff/detail/dissipative_step.hpp>
 
 #include "support/catch.hpp"
 #include "support/matrix_exponential.hpp"

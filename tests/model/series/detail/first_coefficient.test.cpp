@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Domains that a polynomial's range would leave and the values do not, against doubles: in one lane
 // and in eight, one of which touches the edge.
-#include <sivid/model/series/detail/first_coefficient.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -4,6 +4,7 @@
 #include <sivid/model/change/detail/smoothed.hpp>
 #include <sivid/model/change/detail/substitution.hpp>
 #include <sivid/model/effects.hpp>
+#include <sivid/model/implicit_model.hpp>
 
 #include "paving/relation/two_links.hpp"
 #include "support/catch.hpp"

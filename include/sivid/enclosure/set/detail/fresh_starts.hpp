@@ -2,7 +2,6 @@
 #ifndef SIVID_ENCLOSURE_SET_DETAIL_FRESH_STARTS_HPP
 #define SIVID_ENCLOSURE_SET_DETAIL_FRESH_STARTS_HPP
 
-#include <sivid/enclosure/set/detail/framed_box.hpp>
 #include <sivid/enclosure/set/parametric_set.hpp>
 
 #include <algorithm>

@@ -2,9 +2,168 @@
 #ifndef SIVID_ENCLOSURE_STEP_DETAIL_STEPPER_HPP
 #define SIVID_ENCLOSURE_STEP_DETAIL_STEPPER_HPP
 
-#include <sivid/enclosure/step/detail/stepper_class.hpp>
+#include <sivid/compiled.hpp>
+#include <sivid/enclosure/failure.hpp>
+#include <sivid/enclosure/options.hpp>
+#include <sivid/enclosure/series/detail/variation_bound.hpp>
+#include <sivid/enclosure/series/domain_edge.hpp>
+#include <sivid/enclosure/series/expansion.hpp>
+#include <sivid/enclosure/set/doubleton.hpp>
+#include <sivid/enclosure/step/detail/step_length.hpp>
+#include <sivid/enclosure/step/detail/tube_step.hpp>
+#include <sivid/enclosure/step/perturbed_step.hpp>
+#include <sivid/enclosure/step/step_method.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace sivid {
+
+/// Proves steps of x' = f(t, x, p, u) for a family of trajectories, and maps its set along them.
+///   A-priori enclosure: B with
+///   \f$ \sum_{k<q} [0,h]^k x^{[k]}(X) + [0,h]^q x^{[q]}(B) \subset B \f$ (existence on [0, h]);
+///   centre: \f$ \sum_{k<K} s^k x^{[k]}(m) + s^K x^{[K]}(B) \f$, or a Runge-Kutta formula;
+///   derivative: \f$ \sum_{k<q} s^k V^{[k]}(X) + s^q (J_q(B) W) \f$, W an enclosure of V on [0, h].
+/// Inputs with error bounds: all this is done for the recorded ones, and the images are widened by
+/// what the others may add (see `perturbed_step`).
+/// @guarantee  what `prove` returns is proved; a refusal says why.
+/// @ref  Nedialkov, Jackson and Corliss 1999 (high-order enclosure); Lohner 1987; Zgliczynski 2002
+///       (C1-Lohner). The factor W in the Lagrange term of V is not to be dropped: V is not 1 at
+///       the intermediate time.
+template <class I>
+class stepper {
+    using traits = arithmetic_of<I>;
+
+public:
+    stepper(flow const& f, enclosure_options const& options)
+        : flow_(&f),
+          options_(options),
+          centre_(f, highest(options)),
+          start_(f, highest(options)),
+          tube_(f, highest(options)) {
+        if (f.uncertain()) perturbed_.emplace(f);
+        method_ = make_step_method<I>(f, options);
+    }
+
+    void set_ensemble(ensemble<I> const& e) {
+        ensemble_ = &e;
+        centre_.set_parameters(point_box<I>(e.parameter_centre));
+        start_.set_parameters(e.parameters);
+        tube_.set_parameters(e.parameters);
+        if (perturbed_) perturbed_->set_parameters(e.parameters);
+        if (method_) method_->set_ensemble(e);
+        learned_ = 1;
+        near_ = HUGE_VAL;
+        crossing_ = 0;
+        extra_order_ = 0;
+    }
+
+    /// Proves a step from `set` that ends at `limit` or before.
+    /// @param limit  later than the set's time, at most the next knot of a sampled input
+    [[nodiscard]] std::optional<tube_step<I>> prove(doubleton<I> const& set, double limit,
+                                                    enclosure_failure& why);
+
+    /// The set at a time in (from, to] of a proved step.
+    [[nodiscard]] doubleton<I> advance(tube_step<I> const& step, double to) {
+        load(step);
+        return map(step, to);
+    }
+    /// The set at the end of the step that was proved last.
+    [[nodiscard]] doubleton<I> finish(tube_step<I> const& step) { return map(step, step.to); }
+
+private:
+    static constexpr double reject_factor = 0.5;
+
+    /// @throws std::invalid_argument for order 0
+    [[nodiscard]] static std::size_t highest(enclosure_options const& options) {
+        if (options.order < 1)
+            throw std::invalid_argument("enclosure_options: order must be at least 1");
+        return std::max(options.order, options.method ? options.method->order + 1 : 0) + 1;
+    }
+
+    [[nodiscard]] I span(double from, double to) const {
+        return traits::sub(traits::point(to), traits::point(from));
+    }
+    [[nodiscard]] double allowed(basic_box<I> const& x, std::size_t i) const {
+        return options_.tolerance * size_[i] + options_.relative_tolerance * traits::width(x[i]);
+    }
+    /// What a step across a kink may lose: a small share of what the set spans, besides what is
+    /// lost anyway since the slopes differ on its two sides.
+    [[nodiscard]] double allowed_at_kink(basic_box<I> const& x, std::size_t i) const {
+        return 10 * options_.tolerance * size_[i] +
+               enclosure_detail::kink_share(options_) * traits::width(x[i]);
+    }
+    /// \f$ \sum_{k<order} s^k x_i^{[k]} + s^{order} last_i \f$ by Horner's rule.
+    [[nodiscard]] static basic_box<I> sum(expansion<I> const& e, I const& s, std::size_t order,
+                                          basic_box<I> const& last) {
+        basic_box<I> result(last.size());
+        for (std::size_t i = 0; i < last.size(); ++i) {
+            I value = last[i];
+            for (std::size_t k = order; k-- > 0;) {
+                value = traits::add(e.state(i, k), traits::mul(s, value));
+            }
+            result[i] = value;
+        }
+        return result;
+    }
+    [[nodiscard]] basic_box<I> coefficients(expansion<I> const& e, std::size_t k) const {
+        basic_box<I> result(flow_->states());
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] = e.state(i, k);
+        return result;
+    }
+    /// Half-width of s^k c, per state.
+    [[nodiscard]] static double scaled_radius(I const& c, double h, std::size_t k) {
+        return traits::rad(c) * enclosure_detail::power_of(h, k);
+    }
+
+    /// Where V has no bound, or needs none.
+    [[nodiscard]] std::optional<Eigen::MatrixXd> unbounded_variation() const {
+        return Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(flow_->states()),
+                                         static_cast<Eigen::Index>(ensemble_->deviation.size()),
+                                         HUGE_VAL);
+    }
+    [[nodiscard]] std::nullopt_t refuse(enclosure_failure& why, failure_reason reason,
+                                        doubleton<I> const& set, double until,
+                                        basic_box<I> const& tried) const;
+    [[nodiscard]] std::size_t steepest_rate() const;
+    [[nodiscard]] std::pair<double, std::size_t> estimate(basic_box<I> const& x) const;
+    [[nodiscard]] double propose(double limit, double from, basic_box<I> const& x) const;
+    [[nodiscard]] std::size_t choose_order(double h, basic_box<I> const& x) const;
+    void load(tube_step<I> const& step);
+    [[nodiscard]] doubleton<I> map_long(tube_step<I> const& step, double to);
+    [[nodiscard]] doubleton<I> restarted(double to, basic_box<I> const& x,
+                                         std::vector<double> const& largest) const;
+    [[nodiscard]] doubleton<I> map(tube_step<I> const& step, double to);
+    /// Of a smooth or kinked step whose series are loaded.
+    [[nodiscard]] interval_matrix<I> flow_derivative(tube_step<I> const& step, I const& s);
+    /// Uncertain inputs: bounds their share of a step that is proved without it.
+    [[nodiscard]] bool perturb(tube_step<I>& step);
+    /// A box at a time of a proved step, widened by that share.
+    [[nodiscard]] basic_box<I> perturbed(tube_step<I> const& step, double to, basic_box<I> x) const;
+    [[nodiscard]] basic_box<I> centre_image(tube_step<I> const& step, I const& s);
+
+    flow const* flow_;
+    enclosure_options options_;
+    expansion<I> centre_, start_, tube_;
+    std::optional<perturbed_step<I>> perturbed_;    ///< where inputs are uncertain
+    std::unique_ptr<step_method<I>> method_;        ///< where the options name one
+    std::optional<runge_kutta_formula<I>> formula_; ///< of the step that was proved last
+    ensemble<I> const* ensemble_ = nullptr;
+    basic_box<I> lagrange_;       ///< x^[K](B)
+    basic_box<I> tube_lagrange_;  ///< x^[q](B)
+    std::vector<double> size_;    ///< of the states of the set; a preference
+    double learned_ = 1;          ///< accepted over estimated step length
+    std::size_t extra_order_ = 0; ///< what wide sets need above the centre's order
+    double near_ = HUGE_VAL;   ///< about the longest step that the neighbourhood of a kink allows
+    std::size_t crossing_ = 0; ///< steps of first order since the last smooth one
+};
 
 /// The step length at which a coefficient of the centre reaches what is allowed, and its state.
 template <class I>
@@ -59,8 +218,12 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
     for (std::size_t i = 0; i < n; ++i) size_[i] = std::max(size_[i], flow_->small(i));
     I const begin = traits::point(from);
     why.time = from;
-    if (long_) {
-        if (auto step = prove_long(set, limit)) return step;
+    if (method_) {
+        std::vector<double> margin(n);
+        for (std::size_t i = 0; i < n; ++i) margin[i] = allowed(x, i);
+        if (auto step = method_->prove_long(set, limit, margin,
+                                            [this](tube_step<I>& s) { return perturb(s); }))
+            return step;
     }
     centre_.expand(from, begin, point_box<I>(set.centre),
                    options_.method ? options_.method->order + 1 : options_.order);
@@ -222,8 +385,8 @@ std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double li
             continue;
         }
         formula_.reset();
-        if (smooth && implicit_) {
-            formula_ = apply_method(from, set.centre, length);
+        if (smooth && method_ && method_->is_implicit()) {
+            formula_ = method_->formula(from, set.centre, length);
             unsolved = !formula_;
             if (unsolved) {
                 why.component = steepest_rate();
@@ -304,65 +467,6 @@ std::size_t stepper<I>::steepest_rate() const {
 }
 
 template <class I>
-std::optional<tube_step<I>> stepper<I>::prove_long(doubleton<I> const& set, double limit) {
-    static constexpr double shortest = 2; // in time constants: below, the series do better
-    long_map_.reset();
-    if (long_pause_ > 0) {
-        --long_pause_;
-        return std::nullopt;
-    }
-    auto const n = flow_->states();
-    auto const x = set.hull_and_centre();
-    double const rest = limit - set.time;
-    double const constant = 1 / long_->stiffness(set.time, x);
-    std::vector<double> margin(n);
-    for (std::size_t i = 0; i < n; ++i) margin[i] = allowed(x, i);
-    double h = std::min({rest, options_.longest_step(), long_length_});
-    if (h < rest && h > 0.5 * rest) h = 0.5 * rest;
-    double const proposed = h;
-    for (int attempt = 0; attempt < 12 && h > shortest * constant; ++attempt) {
-        double const to = h >= rest ? limit : set.time + h;
-        if (h < options_.shortest_step() || !(to > set.time)) break;
-        auto tube = long_->enclose(set.time, to, x, set.centre, margin);
-        auto map = tube ? long_->map(set.time, to, set.centre, *tube) : std::nullopt;
-        double ratio = map ? 0 : HUGE_VAL;
-        for (std::size_t i = 0; map && i < n; ++i) {
-            auto const row = static_cast<Eigen::Index>(i);
-            ratio = std::max(ratio, map->error[row] / margin[i]);
-            double spread = 0; // of the derivative, on this set
-            for (std::size_t c = 0; c < ensemble_->deviation.size(); ++c) {
-                double const size =
-                    c < n ? traits::mag(traits::sub(x[c], traits::point(set.centre[c])))
-                          : traits::mag(ensemble_->deviation[c]);
-                spread += map->slack(row, static_cast<Eigen::Index>(c)) * size;
-            }
-            ratio = std::max(ratio, spread / (margin[i] + 0.01 * traits::width(x[i])));
-        }
-        if (!(ratio <= 1)) {
-            double const power = 1.0 / static_cast<double>(long_->order());
-            h *= std::isfinite(ratio) ? std::clamp(0.9 * std::pow(ratio, -power), 0.1, 0.8) : 0.5;
-            continue;
-        }
-        long_length_ = h < proposed ? 1.1 * h : std::max(long_length_, 1.5 * h);
-        tube_step<I> step;
-        step.from = set.time;
-        step.to = to;
-        step.start = set;
-        step.order = long_->order();
-        step.dissipative = true;
-        step.swept = *tube;
-        step.tube = std::move(*tube);
-        step.variation = *unbounded_variation();
-        if (!perturb(step)) break;
-        long_map_ = std::move(map);
-        return step;
-    }
-    long_length_ = 4 * h;
-    long_pause_ = 8;
-    return std::nullopt;
-}
-
-template <class I>
 bool stepper<I>::perturb(tube_step<I>& step) {
     if (!perturbed_) return true;
     I const times = traits::bounds(step.from, step.to);
@@ -375,16 +479,126 @@ bool stepper<I>::perturb(tube_step<I>& step) {
     return true;
 }
 
+// Where a proved step leads.
+
+template <class I>
+void stepper<I>::load(tube_step<I> const& step) {
+    I const begin = traits::point(step.from);
+    I const times = traits::bounds(step.from, step.to);
+    formula_.reset();
+    if (step.long_map) return;
+    centre_.expand(step.from, begin, point_box<I>(step.start.centre), step.order);
+    start_.expand_with_variations(step.from, begin, step.start.hull_and_centre(),
+                                  step.variational_order);
+    tube_.expand(step.from, times, step.tube, step.order);
+    lagrange_ = coefficients(tube_, step.order);
+    tube_lagrange_ = coefficients(tube_, step.variational_order);
+    tube_.expand_with_variations(step.from, times, step.tube, step.variational_order);
+}
+
+template <class I>
+basic_box<I> stepper<I>::centre_image(tube_step<I> const& step, I const& s) {
+    auto taylor = sum(centre_, s, step.order, lagrange_);
+    if (!method_ || !step.smooth) return taylor;
+    // phi(s) + s^(p+1) (x^[p+1](B) - phi^[p+1]([0, s]))
+    auto const p = options_.method->order;
+    auto const formula = formula_ ? formula_ : method_->formula(step.from, step.start.centre, s);
+    // A stage may leave the domain although the solution does not: the series then stands alone.
+    if (!formula) return taylor;
+    typename traits::mask ignored{};
+    auto const power = traits::pown(s, static_cast<int>(p + 1), ignored);
+    basic_box<I> image(taylor.size());
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        auto const error = traits::sub(lagrange_[i], formula->next[i]);
+        image[i] = traits::add(formula->value[i], traits::mul(power, error));
+    }
+    return image;
+}
+
+/// A set that starts anew from a box: what it knew of the ensemble is lost.
+template <class I>
+doubleton<I> stepper<I>::restarted(double to, basic_box<I> const& x,
+                                   std::vector<double> const& largest) const {
+    auto next = doubleton<I>::start(to, x, flow_->parameters());
+    next.largest = largest;
+    next.note_sizes(x);
+    next.shape.setZero();
+    next.remainder = subtract(x, next.centre);
+    return next;
+}
+
+template <class I>
+doubleton<I> stepper<I>::map_long(tube_step<I> const& step, double to) {
+    auto const map = to == step.to ? std::optional(*step.long_map) : method_->map_long(step, to);
+    auto const direct = perturbed(step, to, step.tube);
+    if (!map) return restarted(to, direct, step.start.largest);
+    return step.start.mapped(to, perturbed(step, to, map->image), map->derivative, direct,
+                             ensemble_->deviation);
+}
+
+template <class I>
+basic_box<I> stepper<I>::perturbed(tube_step<I> const& step, double to, basic_box<I> x) const {
+    if (!step.perturbation) return x;
+    auto const away =
+        step.perturbation->deviation(input_errors(*flow_, step.from, step.from),
+                                     input_errors(*flow_, step.from, to), to - step.from);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] = traits::add(x[i], traits::bounds(-away[i], away[i]));
+    }
+    return x;
+}
+
+template <class I>
+interval_matrix<I> stepper<I>::flow_derivative(tube_step<I> const& step, I const& s) {
+    auto const n = flow_->states();
+    auto const columns = n + flow_->parameters();
+    auto const q = step.variational_order;
+    interval_matrix<I> j(n, columns);
+    I power = traits::point(1.0);
+    for (std::size_t k = 0; k < q; ++k) power = traits::mul(power, s);
+    auto const w = [&](std::size_t i, std::size_t c) {
+        double const e = step.variation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
+        return traits::add(traits::point(i == c ? 1.0 : 0.0), traits::bounds(-e, e));
+    };
+    for (std::size_t c = 0; c < columns; ++c) {
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!flow_->sensitive(i, c)) continue;
+            // J_q(B) W: the q-th coefficient of the variational equation from any V in W.
+            I last = c >= n ? tube_.variation(i, c, q) : traits::point(0.0);
+            for (std::size_t l = 0; l < n; ++l) {
+                if (!flow_->sensitive(i, l)) continue;
+                last = traits::add(last, traits::mul(tube_.variation(i, l, q), w(l, c)));
+            }
+            I value = traits::mul(power, last);
+            I polynomial = traits::point(0.0);
+            for (std::size_t k = q; k-- > 0;) {
+                polynomial = traits::add(start_.variation(i, c, k), traits::mul(s, polynomial));
+            }
+            j(i, c) = traits::add(polynomial, value);
+        }
+    }
+    return j;
+}
+
+template <class I>
+doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
+    if (step.long_map) return map_long(step, to);
+    I const s = span(step.from, to);
+    auto const& deviation = ensemble_->deviation;
+    auto const direct = perturbed(
+        step, to, intersect(sum(start_, s, step.variational_order, tube_lagrange_), step.tube));
+    if (step.jumps) {
+        // No derivative exists across a jump.
+        return restarted(to, direct, step.start.largest);
+    }
+    return step.start.mapped(to, perturbed(step, to, centre_image(step, s)),
+                             flow_derivative(step, s), direct, deviation);
+}
+
+#ifdef SIVID_COMPILED // its members are compiled once
+extern template class stepper<interval>;
+#endif
+
 } // namespace sivid
-
-#include <sivid/enclosure/step/detail/stepper_image.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #endif

@@ -48,8 +48,8 @@ public:
     [[nodiscard]] window_contraction operator()() {
         stopwatch const clock;
         auto const& run = options_.run;
-        bool const as_asked = run.set == carried_set::taylor_model && !run.method &&
-                              run.make == nullptr; // else by other means than these
+        // else by other means than these
+        bool const as_asked = run.set == carried_set::taylor_model && !run.method;
         if (as_asked && !problem_->model.has_memory() && problem_->model.added_states.empty()) {
             std::vector<window> chain;
             bool const left = !options_.equations || know(chain);

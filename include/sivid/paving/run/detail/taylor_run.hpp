@@ -31,8 +31,7 @@ struct lane_task {
 
 /// Taylor models, in lanes or one by one: a lane that is done takes the next family. Each lane is
 /// at its own time; the inputs are those of the flow.
-/// @tparam Flow  what carries the sets
-template <class C, class Flow = parametric_flow<taylor_model<C>>>
+template <class C>
 class taylor_lanes {
 public:
     static constexpr std::size_t width = lane_traits<C>::count;
@@ -124,7 +123,7 @@ private:
     }
 
     run_options options_;
-    Flow flow_;
+    parametric_flow<taylor_model<C>> flow_;
     /// For each number of unknowns, and where their monomials are among those of the flow.
     std::map<std::size_t,
              std::pair<std::shared_ptr<monomial_table const>, std::vector<std::size_t>>>
@@ -133,7 +132,7 @@ private:
 
 /// One experiment over boxes of parameters. A box alone goes in scalars: lanes that stand idle cost
 /// as much as those that run.
-template <class C, class Flow = parametric_flow<taylor_model<C>>>
+template <class C>
 class taylor_run final : public experiment_run {
 public:
     /// @param unknowns, degree  of the polynomials
@@ -156,7 +155,7 @@ public:
         for (auto const& p : parameters) {
             families.push_back({experiment_, samples_, &initial, &p});
         }
-        if constexpr (std::is_same_v<Flow, parametric_flow<taylor_model<lanes<8>>>>) {
+        if constexpr (std::is_same_v<C, lanes<8>>) {
             if (families.size() == 1) {
                 if (!single_) single_.emplace(*flow_, options_, unknowns_, degree_);
                 return (*single_)(families);
@@ -171,7 +170,7 @@ private:
     flow const* flow_;
     run_options options_;
     std::size_t unknowns_, degree_;
-    taylor_lanes<C, Flow> lanes_;
+    taylor_lanes<C> lanes_;
     std::optional<taylor_lanes<double>> single_; ///< made when it is first asked for
 };
 

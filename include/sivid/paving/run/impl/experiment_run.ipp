@@ -27,20 +27,16 @@ SIVID_DECL std::unique_ptr<experiment_run> make_run(flow const& f, experiment co
     auto const unknowns = unknown_count(initial, prior);
     auto const degree = degree_for(options, unknowns);
     // Points one by one: where nothing is unknown there are no boxes to fill the lanes.
-    if (options.set == carried_set::taylor_model && options.make == nullptr && !options.method &&
-        degree == 0)
+    if (options.set == carried_set::taylor_model && !options.method && degree == 0)
         return make_scalar_run(f, e, samples, initial, prior, options);
     options = options_for(f, std::move(options));
     static_cast<enclosure_options&>(options) = steps_for(e, options);
     if (options.set == carried_set::taylor_model) {
-        if (options.make != nullptr) return options.make(f, e, samples, initial, prior, options);
-        if (options.method) {
+        if (options.method)
             throw std::invalid_argument(
-                "run_options: Taylor models follow the method '" + options.method->name +
-                "' with make = runge_kutta_run (sivid/paving/run/runge_kutta_run.hpp), else the "
-                "Taylor series alone; sets of first order (carried_set::doubleton) take any "
-                "method");
-        }
+                "run_options: Taylor models follow the Taylor series, not the method '" +
+                options.method->name +
+                "'; sets of first order (carried_set::doubleton) take any method");
         return std::make_unique<taylor_run<lanes<8>>>(f, e, samples, options, unknowns, degree);
     }
     return std::make_unique<doubleton_run>(f, e, samples, options);

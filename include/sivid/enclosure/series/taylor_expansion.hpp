@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_ENCLOSURE_SERIES_DETAIL_VARIATION_COLUMNS_HPP
-#define SIVID_ENCLOSURE_SERIES_DETAIL_VARIATION_COLUMNS_HPP
+#ifndef SIVID_ENCLOSURE_SERIES_TAYLOR_EXPANSION_HPP
+#define SIVID_ENCLOSURE_SERIES_TAYLOR_EXPANSION_HPP
+
+/// @file
+/// Taylor models as the numbers of expansions and of inputs with errors.
 
 #include <sivid/enclosure/flow.hpp>
+#include <sivid/enclosure/series/expansion.hpp>
+#include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>
 #include <sivid/number/polynomial/detail/series_columns.hpp>
+#include <sivid/number/taylor_model.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -115,6 +121,31 @@ private:
     series_columns v_;
     columns_sum sum_;
     model zero_;
+};
+
+namespace enclosure_detail {
+template <>
+struct columns_of<taylor_model<double>> {
+    using type = variation_columns;
+    static type make(flow const& f, tape const& program, std::size_t entries, std::size_t columns,
+                     std::size_t orders, size_of_values<taylor_model<double>> const& values) {
+        return {f, program, entries, columns, orders, *values.shape};
+    }
+};
+} // namespace enclosure_detail
+
+template <class C>
+struct set_scalar<taylor_model<C>> {
+    using model = taylor_model<C>;
+    using scalar = C;
+    static C mag(model const& a) { return a.norm(); }
+    static C upper(model const& a) {
+        return a.c(0) + (a.above() + a.r()) + a.norm() * (8 * model::unit);
+    }
+    static C middle(model const& a) { return a.c(0); }
+    /// @given  m is the middle
+    static C beside(model const& a, C const&) { return (a.above() + a.r()) * a.shape().up; }
+    static model widened(model const& a, C const& w) { return sivid::widened(a, w); }
 };
 
 } // namespace sivid

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // V's series with its columns side by side against the same series entry by entry in intervals.
-#include <sivid/enclosure/series/detail/variation_columns.hpp>
+#include <sivid/enclosure/series/taylor_expansion.hpp>
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -2,8 +2,7 @@
 // Shapes of the implicit methods, and what distinguishes the families: the simplifying conditions
 // of their nodes. That they have their orders is tested with the rooted trees in
 // order_conditions.test.cpp.
-#include <sivid/enclosure/runge_kutta/implicit_tableau.hpp>
-#include <sivid/enclosure/runge_kutta/order_conditions.hpp>
+#include <sivid/enclosure/methods.hpp>
 
 #include "support/catch.hpp"
 #include "support/runge_kutta.hpp"
