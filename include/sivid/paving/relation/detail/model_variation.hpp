@@ -35,9 +35,11 @@ public:
     /// @param channels  that show the states
     /// @param believed  whether states of which nothing else is known keep their own ranges; else
     ///                  nothing is assumed
+    /// @param sums      of states of the model, by which they are enclosed, too
     model_variation(bound_model const& model, box const& prior, experiment const& e,
-                    std::vector<std::optional<std::size_t>> const& channels, bool believed = true)
-        : cells_(model, prior, e, channels, believed) {}
+                    std::vector<std::optional<std::size_t>> const& channels, bool believed = true,
+                    std::vector<state_sum> const& sums = {})
+        : cells_(model, prior, e, channels, believed, sums) {}
 
     [[nodiscard]] motion_cells const& cells() const { return cells_; }
     /// Encloses the motions, which are known at the samples of all states from now on.
