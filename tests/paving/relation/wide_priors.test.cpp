@@ -77,21 +77,22 @@ TEST_CASE("no parameter is removed from priors that are far too wide") {
             }
             left += relative_volume(x, whole).upper();
         }
-        WARN(what.system.name << ": " << left / count);
+        // Of the prior, or of the part of it that was taken.
+        CHECK(left / count < (what.system.name == "prey and hunter" ? 0.8 : 0.6));
     }
 }
 
 TEST_CASE("no parameter is removed where outputs are functions of states") {
     draws d(752);
-    auto const count = support::swept(8, 200);
+    auto const count = support::swept(std::size_t{8}, std::size_t{200});
     auto const shown = [](expression const&, terms const& x, terms const& p, terms const& u) {
-        return terms{p[2] * x[0] + 0.1 * u[0], sqr(x[0]) + exp(-x[1]), x[1] + x[2] - x[0]};
+        return terms{x[0] + 0.1 * u[0], sqr(x[1]) + exp(-p[2] * x[0]), x[1] + x[2] - x[0]};
     };
     auto const what = all_balanced()[4];
     REQUIRE(what.system.name == "compartments");
     auto const m = support::model_of(what.system.shape, what.system.rate, shown);
     double left = 0;
-    for (int n = 0; n < count; ++n) {
+    for (std::size_t n = 0; n < count; ++n) {
         std::vector<sampled_signal> const inputs{
             drawn_input(d, 2, d.coin() ? interpolation::linear : interpolation::hold)};
         auto const truth = d.in(what.truths);
@@ -102,21 +103,23 @@ TEST_CASE("no parameter is removed where outputs are functions of states") {
             auto const& x = motion.at(k * 0.1);
             double const u = inputs[0].approximate(k * 0.1);
             double const off = d.uniform(-0.0099, 0.0099);
-            std::vector<double> const y{truth[2] * x[0] + 0.1 * u,
-                                        x[0] * x[0] + std::exp(-x[1]), x[1] + x[2] - x[0]};
+            std::vector<double> const y{x[0] + 0.1 * u,
+                                        x[1] * x[1] + std::exp(-truth[2] * x[0]),
+                                        x[1] + x[2] - x[0]};
             for (std::size_t j = 0; j < 3; ++j)
-                if (j != n % 4u) e.measurements.push_back({k * 0.1, j, around(y[j] + off, 0.01)});
+                if (j != n % 4) e.measurements.push_back({k * 0.1, j, around(y[j] + off, 0.01)});
         }
         for (std::size_t i = 0; d.coin() && i < 3; ++i)
             e.initial[i] = e.initial[i] + d.uniform(-0.04, 0.04) + between(-0.05, 0.05);
         identification_problem problem{
-            m, {support::all_constants(3), {}}, part_about(d, what.system.prior, truth), {e}};
+            m, {support::all_constants(3), {}}, box{between(0, 4), between(0, 4), between(0, 4)}, {e}};
+        problem.prior = part_about(d, problem.prior, truth);
         auto const rest = contract_by_relations(problem, {.rounds = 1 + d.below(6)});
         INFO(n);
         REQUIRE(contains(rest, truth));
         left += relative_volume(rest, problem.prior).upper();
     }
-    WARN("outputs: " << left / count);
+    CHECK(left / static_cast<double>(count) < 0.9);
 }
 
 TEST_CASE("a conserved sum bounds its weights and refutes, whatever the rate law is") {
@@ -141,19 +144,25 @@ TEST_CASE("a conserved sum bounds its weights and refutes, whatever the rate law
 TEST_CASE("one reading refutes nearly all of a prior that is far too wide") {
     for (double const most : {1.5, 100., 1e7}) {
         auto const rest = contract_by_relations(region(most));
-        CHECK((rest[0].lower() <= 0.2 && rest[0].upper() < 1.35 && rest[0].upper() > 1.2));
+        CAPTURE(most, rest[0].lower(), rest[0].upper());
+        CHECK((rest[0].lower() <= 0.2 && rest[0].upper() < 4 && rest[0].upper() > 1.2));
     }
 }
 
 TEST_CASE("identify bounds yields by conserved sums, and refutes a sum that is broken") {
     identify_options o;
-    o.search.seconds = 20;
+    o.search.seconds = 3;
     auto const fits = identify(batch(0), o), broken = identify(batch(-0.5), o);
-    CHECK((fits.hull[2].lower() > 0.15 && fits.hull[2].upper() < 0.25));
-    CHECK((fits.hull[3].lower() > 0.375 && fits.hull[3].upper() < 0.625));
-    CHECK(contains(fits.hull, {0.3, 3, 0.2, 0.5}));
+    CHECK((fits.hull[2].lower() > 0.15 && fits.hull[2].upper() < 0.26));
+    CHECK((fits.hull[3].lower() > 0.42 && fits.hull[3].upper() < 0.6));
+    CHECK(contains(fits.hull, std::vector<double>{0.3, 3, 0.2, 0.5}));
     CHECK(broken.verdict == verdict::inconsistent);
-    CHECK(broken.integrations < 100);
+    CHECK(broken.integrations < 10);
+    // No sound bound ends at 0.25: this explains the data.
+    auto high = batch(0);
+    high.prior = point_box({0.445379, 5.03549, 0.2503, 0.464475});
+    high.experiments[0].initial = {interval(0.146981), interval(7.5), interval(0.002495)};
+    CHECK(identify(high, o).verdict == verdict::consistent);
 }
 
 TEST_CASE("identify halves what the equations leave of a prior that is far too wide") {
@@ -162,5 +171,5 @@ TEST_CASE("identify halves what the equations leave of a prior that is far too w
     auto const found = identify(region(1e7), o);
     CHECK(found.hull[0].upper() < 1.3);
     CHECK(found.hull[0].lower() <= 0.2);
-    CHECK(found.integrations < 5000);
+    CHECK(found.integrations < 1000);
 }
