@@ -11,21 +11,22 @@
 
 namespace sivid {
 
-/// \f$ (\sum_i a_i x_i)' = r \f$: a sum of states that changes by less than its states do. Its
-/// weights are functions of the constants alone, the first is 1; r is affine in the states. A
-/// conserved sum has r = 0.
+/// \f$ (x_i + \sum_k a_k x_k)' = r \f$: a sum of states that changes by less than its states do. Its
+/// weights are functions of the constants alone, r is affine in the states. A conserved sum has
+/// r = 0.
 struct state_sum {
-    /// \f$ factor \cdot product \f$, added to the weight of a state.
+    /// \f$ factor \cdot product \f$, a term of the weight of a state.
     struct weight {
         std::size_t state = 0;
         node_product product; ///< of nodes that depend on constants alone
         node_id factor = 0;   ///< a literal
         node_id value = 0;    ///< of both
-    };
-    std::vector<weight> weights; ///< one for each product; by states
-    node_id rate = 0;            ///< r
 
-    [[nodiscard]] std::size_t first() const { return weights.front().state; }
+        friend bool operator==(weight const&, weight const&) = default;
+    };
+    std::size_t first = 0;       ///< i
+    std::vector<weight> weights; ///< of the others, by states
+    node_id rate = 0;            ///< r
 };
 
 /// Finds sums of states in which what is no affine function of the states cancels whatever it is:

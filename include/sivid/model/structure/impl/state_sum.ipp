@@ -14,7 +14,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,20 +32,6 @@ public:
         std::map<std::size_t, entry> weights;
         std::map<node_product, entry> rate;
         bool cancelled = false; ///< something that is not affine was in it
-
-        friend bool operator<(row const& a, row const& b) {
-            return std::tuple(a.weights.size() + a.rate.size(), listed(a)) <
-                   std::tuple(b.weights.size() + b.rate.size(), listed(b));
-        }
-
-    private:
-        using item = std::tuple<std::size_t, node_product, std::int64_t, std::int64_t>;
-        [[nodiscard]] static std::vector<item> listed(row const& r) {
-            std::vector<item> all;
-            for (auto const& [i, a] : r.weights)
-                for (auto const& [product, v] : a) all.emplace_back(i, product, v.above, v.below);
-            return all;
-        }
     };
 
     sum_elimination(graph const& g, std::vector<node_id> const& rates)
@@ -65,33 +50,27 @@ public:
         }
     }
 
-    /// Sums that are left when rows are taken in turn from one on.
-    void collect(std::size_t first, std::set<row>& found) {
+    /// Sums that are left when rows are taken in turn from one on, each with its first state.
+    /// @param take  called with (state, row)
+    template <class Take>
+    void collect(std::size_t from, Take const& take) {
         auto rows = rows_;
-        std::rotate(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end());
+        std::rotate(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(from), rows.end());
         std::set<node_product> tried;
         while (auto const column = next_column(rows, tried)) {
             tried.insert(*column);
             if (!eliminate(rows, *column)) return;
-            for (auto const& r : rows) {
+            for (auto r : rows) {
                 int most = 0;
                 for (auto const& f : r.rate) most = std::max(most, degree(f.first));
                 if (r.weights.size() < 2 || most > (r.cancelled ? 1 : 0)) continue;
-                if (auto s = from_one(r)) found.insert(*std::move(s));
+                auto const unit = std::find_if(r.weights.begin(), r.weights.end(),
+                                               [](auto const& w) { return w.second.size() == 1; });
+                if (unit == r.weights.end()) continue;
+                auto const share = inverse(unit->second);
+                if (scale(r.weights, share) && scale(r.rate, share)) take(unit->first, r);
             }
         }
-    }
-
-    /// Whether all fractions are quotients of doubles.
-    [[nodiscard]] static bool exact(row const& r) {
-        constexpr std::int64_t most = std::int64_t{1} << 53;
-        auto const small = [](auto const& part) {
-            return std::all_of(part.second.begin(), part.second.end(), [](auto const& term) {
-                return std::abs(term.second.above) <= most && term.second.below <= most;
-            });
-        };
-        return std::all_of(r.weights.begin(), r.weights.end(), small) &&
-               std::all_of(r.rate.begin(), r.rate.end(), small);
     }
 
 private:
@@ -135,7 +114,7 @@ private:
             return has(r) && r.rate.at(function).size() == 1;
         });
         if (pivot == rows.end()) {
-            rows.erase(std::remove_if(rows.begin(), rows.end(), has), rows.end());
+            std::erase_if(rows, has);
             return true;
         }
         auto const by = *pivot;
@@ -161,23 +140,18 @@ private:
         }
         return true;
     }
-    /// The same sum with the weight 1 of the first state whose weight is a single product.
-    [[nodiscard]] std::optional<row> from_one(row r) {
-        auto const unit = std::find_if(r.weights.begin(), r.weights.end(),
-                                       [](auto const& w) { return w.second.size() == 1; });
-        if (unit == r.weights.end()) return std::nullopt;
-        auto const share = inverse(unit->second);
-        for (auto& [key, value] : r.weights) {
-            auto const part = multiplied_.product(value, share);
-            if (!part) return std::nullopt;
-            value = *part;
+    /// @returns false where numbers grow too large for doubles
+    template <class Key>
+    [[nodiscard]] bool scale(std::map<Key, entry>& to, entry const& share) {
+        constexpr std::int64_t most = std::int64_t{1} << 53;
+        for (auto& [key, value] : to) {
+            auto part = multiplied_.product(value, share);
+            if (!part) return false;
+            value = *std::move(part);
+            for (auto const& [product, v] : value)
+                if (std::abs(v.above) > most || v.below > most) return false;
         }
-        for (auto& [key, value] : r.rate) {
-            auto const part = multiplied_.product(value, share);
-            if (!part) return std::nullopt;
-            value = *part;
-        }
-        return r;
+        return true;
     }
 
     graph const* g_;
@@ -201,38 +175,39 @@ SIVID_DECL std::vector<state_sum> find_state_sums(graph& g, std::vector<node_id>
     using namespace model_detail;
     constexpr std::size_t most = 24;
     if (rates.size() < 2 || rates.size() > most) return {};
-    std::set<sum_elimination::row> found;
-    auto const same = graph(g);
-    sum_elimination elimination(same, rates);
-    for (std::size_t k = 0; k < rates.size(); ++k) elimination.collect(k, found);
     auto const number = [&g](small_fraction const& v) {
         return g.div(g.constant(static_cast<double>(v.above)),
                      g.constant(static_cast<double>(v.below)));
     };
     std::vector<state_sum> result;
-    for (auto const& r : found) {
-        if (result.size() == 2 * rates.size()) break;
-        if (!elimination.exact(r)) continue;
-        state_sum sum{{}, g.constant(0.0)};
-        std::vector<state_sum::weight> others;
+    auto const take = [&](std::size_t first, sum_elimination::row const& r) {
+        state_sum sum{first, {}, g.constant(0.0)};
         for (auto const& [i, a] : r.weights) {
             for (auto const& [product, v] : a) {
                 auto const factor = number(v);
-                state_sum::weight const w{i, product, factor, g.mul(factor, node_of(g, product))};
-                bool const one = sum.weights.empty() && a.size() == 1 && g.is(w.value, 1);
-                (one ? sum.weights : others).push_back(w);
+                auto const value = g.mul(factor, node_of(g, product));
+                if (i != first) sum.weights.push_back({i, product, factor, value});
             }
         }
-        sum.weights.insert(sum.weights.end(), others.begin(), others.end());
+        if (std::any_of(result.begin(), result.end(), [&](state_sum const& known) {
+                return known.first == first && known.weights == sum.weights;
+            }))
+            return;
         for (auto const& [function, coefficient] : r.rate) {
             for (auto const& [product, v] : coefficient) {
-                auto const term = g.mul(g.mul(number(v), node_of(g, product)),
-                                        node_of(g, function));
-                sum.rate = g.add(sum.rate, term);
+                auto const own = g.mul(number(v), node_of(g, product));
+                sum.rate = g.add(sum.rate, g.mul(own, node_of(g, function)));
             }
         }
         result.push_back(std::move(sum));
-    }
+    };
+    auto const same = graph(g);
+    sum_elimination elimination(same, rates);
+    for (std::size_t k = 0; k < rates.size(); ++k) elimination.collect(k, take);
+    std::stable_sort(result.begin(), result.end(), [](auto const& a, auto const& b) {
+        return a.weights.size() < b.weights.size();
+    });
+    if (result.size() > 2 * rates.size()) result.resize(2 * rates.size());
     return result;
 }
 

@@ -42,13 +42,11 @@ public:
             sides_.push_back({i, false, {e.initial[i].upper(), 0.0, own.upper}});
             at_.states[i] = traits::entire();
         }
-        for (auto& s : sides_) {
-            double const first = s.places.front();
-            auto const crossed = [&](double at) { return s.lower ? at > first : at < first; };
-            s.places.erase(std::remove_if(s.places.begin(), s.places.end(), crossed),
-                           s.places.end());
+        for (auto& s : sides_) { // away from the start
             std::sort(s.places.begin(), s.places.end());
             if (s.lower) std::reverse(s.places.begin(), s.places.end());
+            auto const start = std::find(s.places.begin(), s.places.end(), end_of(e.initial, s));
+            s.places.erase(s.places.begin(), start);
         }
     }
 
@@ -56,8 +54,10 @@ public:
     [[nodiscard]] box operator()() {
         for (bool again = true; again;) {
             again = false;
-            for (auto& s : sides_) again = keep_alone(s) || again;
+            for (auto const& s : sides_) again = keep_alone(s) || again;
         }
+        for (auto& s : sides_)
+            std::erase_if(s.places, [&](double at) { return !is_closer(s, at); });
         for (bool again = true; again;) {
             while (drop_crossed()) {
             }
@@ -70,8 +70,7 @@ private:
     struct side {
         std::size_t state;
         bool lower;
-        std::vector<double> places; ///< the closest to the start first; those that are crossed go
-        bool kept = false;          ///< alone, at the first place
+        std::vector<double> places; ///< the closest to the start first
     };
 
     [[nodiscard]] static std::vector<node_id> all_of(integrand_set const& set, std::size_t rates) {
@@ -80,6 +79,13 @@ private:
         for (std::size_t i = 0; i < rates; ++i)
             for (std::size_t k = 0; k < rates; ++k) result.push_back(set.slopes[i][k]);
         return result;
+    }
+    [[nodiscard]] static double end_of(box const& x, side const& s) {
+        return s.lower ? x[s.state].lower() : x[s.state].upper();
+    }
+    /// Whether a side there says more than those that are kept alone.
+    [[nodiscard]] bool is_closer(side const& s, double at) const {
+        return s.lower ? at > end_of(at_.states, s) : at < end_of(at_.states, s);
     }
     [[nodiscard]] static interval cut(interval const& x, side const& s, double at) {
         return s.lower ? traits::bounds(at, x.upper()) : traits::bounds(x.lower(), at);
@@ -94,16 +100,14 @@ private:
         if (range_.undefined(f) || !set_->continuous[s.state]) return false;
         return s.lower ? range_.value(f).lower() >= 0 : range_.value(f).upper() <= 0;
     }
-    /// @returns whether a side is kept that was not
-    [[nodiscard]] bool keep_alone(side& s) {
-        for (std::size_t k = 0; k < s.places.size() && !s.kept; ++k) {
-            double const at = s.places[k];
+    /// @returns whether a side is kept closer than before
+    [[nodiscard]] bool keep_alone(side const& s) {
+        for (double const at : s.places) {
+            if (!is_closer(s, at)) return false;
             auto const beyond =
                 s.lower ? traits::bounds(-HUGE_VAL, at) : traits::bounds(at, HUGE_VAL);
             if (!inward(s, at_.states, beyond)) continue;
             at_.states[s.state] = cut(at_.states[s.state], s, at);
-            s.kept = true;
-            s.places.resize(k + 1);
             return true;
         }
         return false;
@@ -120,8 +124,7 @@ private:
         bool dropped = false;
         auto const x = within();
         for (auto& s : sides_) {
-            if (s.places.empty() || (s.kept && s.places.size() == 1)) continue;
-            if (inward(s, x, traits::point(s.places.front()))) continue;
+            if (s.places.empty() || inward(s, x, traits::point(s.places.front()))) continue;
             s.places.erase(s.places.begin());
             dropped = true;
         }
@@ -130,10 +133,10 @@ private:
     /// Sides of states whose rates are not Lipschitz around the box.
     [[nodiscard]] bool drop_undetermined() {
         auto at = at_;
-        std::vector<bool> faced(at.states.size(), false);
-        for (auto const& s : sides_) faced[s.state] = faced[s.state] || together(s);
         at.states = within();
-        for (std::size_t i = 0; i < at.states.size(); ++i) {
+        std::vector<bool> faced(at.states.size(), false);
+        for (auto const& s : sides_) faced[s.state] = faced[s.state] || !s.places.empty();
+        for (std::size_t i = 0; i < faced.size(); ++i) {
             auto& x = at.states[i];
             double const ends = std::max(std::isfinite(x.lower()) ? std::abs(x.lower()) : 0,
                                          std::isfinite(x.upper()) ? std::abs(x.upper()) : 0);
@@ -143,19 +146,15 @@ private:
         range_.evaluate(at);
         bool dropped = false;
         for (auto& s : sides_) {
-            if (!together(s)) continue;
+            if (s.places.empty()) continue;
             bool lipschitz = !range_.undefined(set_->functions[s.state]);
             for (std::size_t k = 0; k < faced.size(); ++k)
                 lipschitz = lipschitz && !(faced[k] && range_.undefined(set_->slopes[s.state][k]));
             if (lipschitz) continue;
-            s.places.erase(s.places.begin(), s.kept ? s.places.end() - 1 : s.places.end());
+            s.places.clear();
             dropped = true;
         }
         return dropped;
-    }
-    /// Whether a side rests on the others.
-    [[nodiscard]] static bool together(side const& s) {
-        return s.places.size() > (s.kept ? 1 : 0);
     }
 
     integrand_set const* set_;

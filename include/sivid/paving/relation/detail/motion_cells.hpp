@@ -112,6 +112,12 @@ public:
     }
     [[nodiscard]] graph_range range_of_rates() const { return {*g_, set_.functions}; }
 
+    /// What two enclosures say, side by side; the first where they do not agree.
+    [[nodiscard]] static box both(box x, box const& known) {
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = agreed(x[i], known[i]);
+        return x;
+    }
+
     /// Encloses the model's motions, from the samples before and from those after. A state that is
     /// the rate of a sampled one is told by what that changes by, too (`derivative_bound`).
     [[nodiscard]] motion_reach enclosures() const {
@@ -325,7 +331,7 @@ private:
         own.needed = own.needed || given_up;
         // One step inward; more where the guess is not by Picard's iteration.
         for (int round = given_up ? 3 : 1; round > 0; --round) {
-            if (known != nullptr) guess = within(guess, *known);
+            if (known != nullptr) guess = both(guess, *known);
             auto const rates = rates_in(range, c, guess);
             for (std::size_t i = 0; i < n; ++i) {
                 guess[i] = agreed(guess[i], traits::add(at[i], traits::mul(time, rates[i])));
@@ -335,10 +341,6 @@ private:
             ties_->by_sums(guess);
         }
         return guess;
-    }
-    [[nodiscard]] static box within(box x, box const& known) {
-        for (std::size_t i = 0; i < x.size(); ++i) x[i] = agreed(x[i], known[i]);
-        return x;
     }
     /// By a tenth, and by more than rounding moves it: at rest at 0, by hardly anything.
     [[nodiscard]] static interval grown(interval const& x, interval const& most) {

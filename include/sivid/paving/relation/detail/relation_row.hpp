@@ -218,7 +218,7 @@ inline void add_difference(relation_row& row, relation_row::difference const& d,
 /// The row of a sum of states \f$ x_i + \sum_k a_k x_k \f$ with the rate r: \f$ x_i' = r -
 /// \sum_k a_k x_k' \f$, of which the windows need nothing between samples but r.
 [[nodiscard]] inline relation_row make_sum_row(graph& g, state_sum const& sum, box const& prior) {
-    auto row = make_relation_row(g, sum.rate, sum.first(), prior);
+    auto row = make_relation_row(g, sum.rate, sum.first, prior);
     std::vector<node_id> nodes;
     for (auto const& w : sum.weights) {
         nodes.push_back(w.factor);
@@ -226,8 +226,7 @@ inline void add_difference(relation_row& row, relation_row::difference const& d,
     }
     graph_range range(g, nodes);
     range.evaluate({interval(0.0), {}, prior, {}});
-    for (std::size_t k = 1; k < sum.weights.size(); ++k) {
-        auto const& w = sum.weights[k];
+    for (auto const& w : sum.weights) {
         auto const factor = interval_traits<interval>::neg(range.value(w.factor));
         row.theta.push_back(w.product);
         add_difference(row, {w.state, factor}, range_of(w.product, range));

@@ -119,10 +119,10 @@ private:
         graph_range range(g, values);
         range.evaluate({interval(0.0), {}, prior_, {}});
         for (auto const& s : sums) {
-            auto& weights = weights_.emplace_back();
+            auto& weights = weights_.emplace_back(1, std::pair(s.first, traits::point(1.0)));
             for (auto const& w : s.weights) {
                 bool const undefined = range.undefined(w.value);
-                if (weights.empty() || weights.back().first != w.state)
+                if (weights.back().first != w.state)
                     weights.emplace_back(w.state, traits::point(0.0));
                 auto& own = weights.back().second;
                 own = traits::add(own, undefined ? traits::entire() : range.value(w.value));
