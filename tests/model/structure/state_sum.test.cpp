@@ -36,8 +36,8 @@ TEST_CASE("sums of states change by their rates, wherever the states are") {
         }
         graph_range at(model.g, nodes);
         for (int n = 0; n < 200; ++n) {
-            leaf_ranges x{interval(d.uniform(0, 3)), box(s.shape.states), point_box(d.in(what.truths)),
-                          box{interval(d.uniform(-2, 2))}};
+            leaf_ranges x{interval(d.uniform(0, 3)), box(s.shape.states),
+                          point_box(d.in(what.truths)), box{interval(d.uniform(-2, 2))}};
             for (std::size_t i = 0; i < s.shape.states; ++i)
                 x.states[i] = interval(d.uniform(0.01, 3));
             at.evaluate(x);
@@ -91,7 +91,8 @@ TEST_CASE("products of constants are weights, and what is not affine is left out
             {2, 2, 1});
     };
     CHECK(left([](auto const& x, auto const&, auto const&) { return sqr(x[1]); }) == 0);
-    CHECK(left([](auto const& x, auto const& p, auto const& u) { return p[1] * u[0] * x[1]; }) == 1);
+    CHECK(left([](auto const& x, auto const& p, auto const& u) { return p[1] * u[0] * x[1]; }) ==
+          1);
     CHECK(left([](auto const&, auto const&, auto const& u) { return sin(u[0]); }) == 1);
     // A weight with several terms in every state is no weight to divide by.
     CHECK(rates(

@@ -103,16 +103,17 @@ TEST_CASE("no parameter is removed where outputs are functions of states") {
             auto const& x = motion.at(k * 0.1);
             double const u = inputs[0].approximate(k * 0.1);
             double const off = d.uniform(-0.0099, 0.0099);
-            std::vector<double> const y{x[0] + 0.1 * u,
-                                        x[1] * x[1] + std::exp(-truth[2] * x[0]),
+            std::vector<double> const y{x[0] + 0.1 * u, x[1] * x[1] + std::exp(-truth[2] * x[0]),
                                         x[1] + x[2] - x[0]};
             for (std::size_t j = 0; j < 3; ++j)
                 if (j != n % 4) e.measurements.push_back({k * 0.1, j, around(y[j] + off, 0.01)});
         }
         for (std::size_t i = 0; d.coin() && i < 3; ++i)
             e.initial[i] = e.initial[i] + d.uniform(-0.04, 0.04) + between(-0.05, 0.05);
-        identification_problem problem{
-            m, {support::all_constants(3), {}}, box{between(0, 4), between(0, 4), between(0, 4)}, {e}};
+        identification_problem problem{m,
+                                       {support::all_constants(3), {}},
+                                       box{between(0, 4), between(0, 4), between(0, 4)},
+                                       {e}};
         problem.prior = part_about(d, problem.prior, truth);
         auto const rest = contract_by_relations(problem, {.rounds = 1 + d.below(6)});
         INFO(n);

@@ -11,8 +11,8 @@
 
 namespace sivid {
 
-/// \f$ (x_i + \sum_k a_k x_k)' = r \f$: a sum of states that changes by less than its states do. Its
-/// weights are functions of the constants alone, r is affine in the states. A conserved sum has
+/// \f$ (x_i + \sum_k a_k x_k)' = r \f$: a sum of states that changes by less than its states do.
+/// Its weights are functions of the constants alone, r is affine in the states. A conserved sum has
 /// r = 0.
 struct state_sum {
     /// \f$ factor \cdot product \f$, a term of the weight of a state.

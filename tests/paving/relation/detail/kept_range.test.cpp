@@ -11,8 +11,8 @@ namespace {
 
 /// What is kept of a problem's first experiment.
 box kept_in(identification_problem const& problem) {
-    auto model = bind(problem.model, problem.choice,
-                      {sampled_signal({0.0}, {0.0}, interpolation::linear)});
+    auto model =
+        bind(problem.model, problem.choice, {sampled_signal({0.0}, {0.0}, interpolation::linear)});
     auto const n = model.state_count();
     auto const set = integrand_set::of(model.g, model.rate, n, 1);
     return paving_detail::kept_sides(set, n, model, problem.prior, problem.experiments[0])();
@@ -67,28 +67,25 @@ TEST_CASE("sides are kept alone, together, or not at all") {
     CHECK((shares[0].lower() == 0 && shares[0].upper() == 0.75));
     CHECK((shares[1].lower() == 0 && shares[1].upper() == HUGE_VAL));
     // Alone: a root that is not Lipschitz at 0.
-    auto const level = kept_of(
-        [](expression const&, list x, list p, list u) {
-            return terms{u[0] - p[0] * sqrt(max(x[0], 0))};
-        },
-        box{between(0.5, 1)});
+    auto const level = kept_of([](expression const&, list x, list p,
+                                  list u) { return terms{u[0] - p[0] * sqrt(max(x[0], 0))}; },
+                               box{between(0.5, 1)});
     CHECK((level[0].lower() == 0 && !is_bounded(level[0])));
     // Not: motions that stop at 0 and go on below are not unique there.
-    auto const leaves = kept_of(
-        [](expression const&, list x, list, list) { return terms{-sqrt(abs(x[0]))}; },
-        box{between(0.5, 1)});
+    auto const leaves =
+        kept_of([](expression const&, list x, list, list) { return terms{-sqrt(abs(x[0]))}; },
+                box{between(0.5, 1)});
     CHECK(leaves[0].lower() == -HUGE_VAL);
     CHECK(leaves[0].upper() == 1);
     // Nor where the rate is not defined, but at the end of the own range behind it.
-    auto const jumps = kept_of(
-        [](expression const&, list x, list, list) { return terms{-x[0] / abs(x[0])}; },
-        box{between(0.5, 1)});
+    auto const jumps =
+        kept_of([](expression const&, list x, list, list) { return terms{-x[0] / abs(x[0])}; },
+                box{between(0.5, 1)});
     CHECK(jumps[0].lower() == -100);
     // An end of the own range, of both signs.
-    auto const saturated = kept_of(
-        [](expression const&, list x, list p, list u) {
-            return terms{u[0] * (4 - x[0]) * (4 + x[0]) * (p[0] + 1)};
-        },
-        box{between(-1, 1)}, 4);
+    auto const saturated =
+        kept_of([](expression const&, list x, list p,
+                   list u) { return terms{u[0] * (4 - x[0]) * (4 + x[0]) * (p[0] + 1)}; },
+                box{between(-1, 1)}, 4);
     CHECK((saturated[0].lower() == -1 && saturated[0].upper() == 4));
 }

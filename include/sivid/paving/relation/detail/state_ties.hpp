@@ -39,8 +39,8 @@ public:
         for (std::size_t y = 0; y < model.channel_count(); ++y) {
             auto const value = model.observe[y];
             auto const own = leaves_of(g, {value}, operation::state);
-            bool const tells = std::any_of(own.begin(), own.end(),
-                                           [&](std::size_t i) { return !samples[i]; });
+            bool const tells =
+                std::any_of(own.begin(), own.end(), [&](std::size_t i) { return !samples[i]; });
             auto seen = state_samples::sensed(e, y);
             if (!tells || seen.times.empty() || g[value].op == operation::state) continue;
             auto const set = integrand_set::of(g, {value}, states_, e.inputs.size());
