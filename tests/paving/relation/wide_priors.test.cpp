@@ -82,47 +82,6 @@ TEST_CASE("no parameter is removed from priors that are far too wide") {
     }
 }
 
-TEST_CASE("no parameter is removed where outputs are functions of states") {
-    draws d(752);
-    auto const count = support::swept(std::size_t{8}, std::size_t{200});
-    auto const shown = [](expression const&, terms const& x, terms const& p, terms const& u) {
-        return terms{x[0] + 0.1 * u[0], sqr(x[1]) + exp(-p[2] * x[0]), x[1] + x[2] - x[0]};
-    };
-    auto const what = all_balanced()[4];
-    REQUIRE(what.system.name == "compartments");
-    auto const m = support::model_of(what.system.shape, what.system.rate, shown);
-    double left = 0;
-    for (std::size_t n = 0; n < count; ++n) {
-        std::vector<sampled_signal> const inputs{
-            drawn_input(d, 2, d.coin() ? interpolation::linear : interpolation::hold)};
-        auto const truth = d.in(what.truths);
-        auto const motion = simulate(m, truth, inputs, d.in(what.system.starts), 2, 0.0025);
-        experiment e{"S", {}, 0, point_box(motion.states[0]), {}, 0};
-        for (auto const& u : inputs) e.inputs.emplace_back(u);
-        for (int k = 1; k <= 20; ++k) {
-            auto const& x = motion.at(k * 0.1);
-            double const u = inputs[0].approximate(k * 0.1);
-            double const off = d.uniform(-0.0099, 0.0099);
-            std::vector<double> const y{x[0] + 0.1 * u, x[1] * x[1] + std::exp(-truth[2] * x[0]),
-                                        x[1] + x[2] - x[0]};
-            for (std::size_t j = 0; j < 3; ++j)
-                if (j != n % 4) e.measurements.push_back({k * 0.1, j, around(y[j] + off, 0.01)});
-        }
-        for (std::size_t i = 0; d.coin() && i < 3; ++i)
-            e.initial[i] = e.initial[i] + d.uniform(-0.04, 0.04) + between(-0.05, 0.05);
-        identification_problem problem{m,
-                                       {support::all_constants(3), {}},
-                                       box{between(0, 4), between(0, 4), between(0, 4)},
-                                       {e}};
-        problem.prior = part_about(d, problem.prior, truth);
-        auto const rest = contract_by_relations(problem, {.rounds = 1 + d.below(6)});
-        INFO(n);
-        REQUIRE(contains(rest, truth));
-        left += relative_volume(rest, problem.prior).upper();
-    }
-    CHECK(left / static_cast<double>(count) < 0.9);
-}
-
 TEST_CASE("a conserved sum bounds its weights and refutes, whatever the rate law is") {
     auto const fits = contract_by_relations(batch(0));
     CHECK((fits[2].lower() > 0.15 && fits[2].lower() < 0.2));

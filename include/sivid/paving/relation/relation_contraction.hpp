@@ -32,8 +32,8 @@ struct relation_contraction_options {
 ///   Constants that do not separate (a wind inside a root, a threshold) are further unknowns by the
 ///   mean value theorem. Sums of states in which rate laws cancel (`find_state_sums`) are equations
 ///   of their own: conserved ones need nothing between the samples. Where a prior is too wide for
-///   an enclosure, states are still told by sides that they keep (`kept_sides`), by such sums, by
-///   outputs, and by their own equations from the samples after them.
+///   an enclosure, states are still told by sides that they keep (`kept_sides`), by such sums, and
+///   by their own equations from the samples after them.
 /// @guarantee  no parameter that explains the data is removed; empty: proved, there is none.
 ///   Experiments with outliers, models with delays, and states of which nothing is known take no
 ///   part (`relation_obstacle`).

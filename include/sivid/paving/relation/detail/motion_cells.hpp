@@ -47,16 +47,14 @@ public:
     /// @param channels  that show the states
     /// @param believed  whether states of which nothing else is known keep their own ranges; else
     ///                  they keep what the model proves that they keep (`kept_sides`)
-    /// @param sums      of the model's states; each is carried as a further state. Outputs tell
-    ///                  something where samples are; where no channel shows a state, theirs are
+    /// @param sums      of the model's states; each is carried as a further state
     motion_cells(bound_model const& model, box const& prior, experiment const& e,
                  std::vector<std::optional<std::size_t>> const& channels, bool believed,
                  std::vector<state_sum> const& sums = {})
         : g_(std::make_unique<graph>(model.g)),
           prior_(prior),
           inputs_(e.inputs),
-          initial_(e.initial),
-          begin_(e.begin) {
+          initial_(e.initial) {
         auto const n = model.state_count();
         std::vector<double> times;
         double spacing = HUGE_VAL;
@@ -80,8 +78,7 @@ public:
             limits_.assign(kept.begin(), kept.end());
         }
         limits_.resize(n + sums.size(), traits::entire());
-        ties_.emplace(*g_, model, prior, e, samples_, sums);
-        if (times.empty()) times = ties_->times(), spacing = ties_->spacing();
+        ties_.emplace(*g_, prior, n, sums);
         cut(std::move(times), spacing, e);
     }
 
@@ -125,7 +122,6 @@ public:
         auto const n = limits_.size();
         auto const count = cells_.size();
         own_rates own;
-        auto ties = *ties_;
         motion_reach result{std::vector<box>(count, box(n)), std::vector<box>(count + 1, box(n))};
         // What the marks of the pass before say at each boundary: [pair][boundary]
         std::vector<std::vector<std::vector<derivative_bound::view>>> other(
@@ -137,7 +133,7 @@ public:
             for (std::size_t i = 0; i < n; ++i) {
                 at[i] = forward && i < initial_.size() ? initial_[i] : own_range(i);
             }
-            ties.by_sums(at);
+            ties_->by_sums(at);
             std::vector<derivative_bound> derived(pairs_.size());
             auto const arrive = [&](std::size_t boundary) {
                 double const t = boundary == count ? cells_.back().to : cells_[boundary].from;
@@ -145,8 +141,7 @@ public:
                     if (auto const seen = sample_at(i, t)) at[i] = agreed(*seen, at[i]);
                     if (again) at[i] = agreed(at[i], result.at[boundary][i]);
                 }
-                ties.by_outputs(t, at);
-                ties.by_sums(at);
+                ties_->by_sums(at);
                 for (std::size_t p = 0; p < pairs_.size(); ++p) {
                     if (!sample_at(pairs_[p].q, t)) continue;
                     derived[p].mark(t, at[pairs_[p].q]);
@@ -191,7 +186,6 @@ public:
         for (auto const& s : samples_) {
             if (s) times.insert(times.end(), s->times.begin(), s->times.end());
         }
-        if (times.empty()) times = ties_->times(), times.push_back(begin_);
         std::sort(times.begin(), times.end());
         times.erase(std::unique(times.begin(), times.end()), times.end());
         for (std::size_t i = 0; i < samples_.size() && !cells_.empty(); ++i) {
@@ -359,7 +353,6 @@ private:
     box prior_;
     std::vector<signal> inputs_;
     box initial_;
-    double begin_;
     std::vector<interval> limits_; ///< of states, then sums
     std::optional<state_ties> ties_;
     std::vector<std::optional<state_samples>> samples_;

@@ -141,9 +141,6 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
         if (s.times.size() > 1) spacing = std::min(spacing, s.spacing());
     }
     if (!(end > e.begin)) return result;
-    for (std::size_t i = 0; i < n && !std::isfinite(spacing); ++i) { // no state is sensed
-        if (result.tubes[i]) spacing = state_samples{result.tubes[i]->times(), {}}.spacing();
-    }
     add_knots(result.boundaries, e.inputs, e.begin, end);
     result.boundaries =
         refined_times(std::move(result.boundaries), spacing / static_cast<double>(cells_per_gap));
