@@ -23,6 +23,7 @@
 #include <sivid/model/impl/to_dot.ipp>
 #include <sivid/model/impl/unit.ipp>
 #include <sivid/model/structure/impl/find_combinations.ipp>
+#include <sivid/model/structure/impl/state_sum.ipp>
 #include <sivid/model/structure/impl/symmetry.ipp>
 
 #endif

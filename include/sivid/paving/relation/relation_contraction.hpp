@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 namespace sivid {
 
@@ -29,12 +30,19 @@ struct relation_contraction_options {
 ///   windows of one equation enclose each \f$ \theta_j \f$, the constants follow. A smaller prior
 ///   has narrower motions, so it goes round again.
 ///   Constants that do not separate (a wind inside a root, a threshold) are further unknowns by the
-///   mean value theorem.
+///   mean value theorem. Sums of states in which rate laws cancel (`find_state_sums`) are equations
+///   of their own: conserved ones need nothing between the samples. Where a prior is too wide for
+///   an enclosure, states are still told by sides that they keep (`kept_sides`), by such sums, and
+///   by their own equations from the samples after them.
 /// @guarantee  no parameter that explains the data is removed; empty: proved, there is none.
-///   Experiments with outliers, models with delays, and states that no channel shows take no part.
+///   Experiments with outliers, models with delays, and states of which nothing is known take no
+///   part (`relation_obstacle`).
 /// @cost  some tens of milliseconds a round for five records of a hundred samples
 [[nodiscard]] SIVID_DECL box contract_by_relations(
     identification_problem const& problem, relation_contraction_options const& options = {});
+
+/// Why equations tell nothing of a problem as a whole; empty where they may.
+[[nodiscard]] SIVID_DECL std::string relation_obstacle(identification_problem const& problem);
 
 /// Tests boxes of parameters in the same way, for `invert`. Smear: how much of what the windows
 /// leave open is due to each.

@@ -93,7 +93,7 @@ TEST_CASE("the model alone encloses the motion, and the middles of the lines tha
         auto const shown =
             n % 3 == 0 ? std::vector<std::size_t>{1} : std::vector<std::size_t>{0, 1};
         auto const e = measured(d, "S", truth, inputs, shown, 0.05, noise::at_the_bounds);
-        auto const motion = proved_motion(model, prior, e, measured_states(model, {&e}), 6);
+        auto const motion = proved_motion(model, prior, e, measured_states(model, {&e}), 6, {});
         REQUIRE_FALSE(motion.cells.empty());
         for (auto const& cell : motion.cells) {
             for (std::size_t i = 0; i < 2; ++i) {

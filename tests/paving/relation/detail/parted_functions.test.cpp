@@ -33,7 +33,7 @@ struct parted_bench {
         set = integrand_set::of(bound.g, functions, 2, 3);
     }
     observed_motion motion_of(experiment const& e) const {
-        return proved_motion(bound, prior, e, measured_states(bound, {&e}), 4);
+        return proved_motion(bound, prior, e, measured_states(bound, {&e}), 4, {});
     }
     parted_functions parted(observed_motion const& motion) const {
         return {set, middle.centre, motion, rates_along(bound, motion), 0, {{1, 0}}};

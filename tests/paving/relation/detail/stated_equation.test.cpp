@@ -123,7 +123,8 @@ TEST_CASE("rates along a motion hold where they are defined") {
     auto const e = record_of_links(d, m, truth, 1, 0.002, noise::uniform);
     auto const b = bound_of(m);
     auto const of = [&](double share) {
-        auto const motion = proved_motion(b, prior_of_links(share), e, measured_states(b, {&e}), 4);
+        auto const motion =
+            proved_motion(b, prior_of_links(share), e, measured_states(b, {&e}), 4, {});
         return rates_along(b, motion);
     };
     for (auto const& rates : of(0.02)) CHECK(is_bounded(rates[2]));

@@ -36,7 +36,7 @@ struct stated_bench {
         return names;
     }
     observed_motion motion_of(experiment const& e) const {
-        return proved_motion(bound, prior, e, measured_states(bound, {&e}), 4);
+        return proved_motion(bound, prior, e, measured_states(bound, {&e}), 4, {});
     }
     double value_of(parameter_product const& theta, std::vector<double> const& p) const {
         double v = 1;

@@ -27,17 +27,18 @@ struct visited_arguments {
     std::vector<interval> range;              ///< of each curve's argument
     std::vector<std::vector<double>> middles; ///< of its range in each cell of time
 
-    visited_arguments(bound_model const& model, identification_problem const& problem,
+    visited_arguments(bound_model model, identification_problem const& problem,
                       std::vector<unknown_curve> const& curves) {
         using traits = interval_traits<interval>;
         range.assign(curves.size(), traits::empty());
         middles.resize(curves.size());
         std::vector<node_id> arguments;
         for (auto const& c : curves) arguments.push_back(c.argument);
+        auto const sums = find_state_sums(model.g, model.rate);
         graph_range at(model.g, arguments);
         for (auto const& e : problem.experiments) {
             auto const motion =
-                proved_motion(model, problem.prior, e, measured_states(model, {&e}), 4);
+                proved_motion(model, problem.prior, e, measured_states(model, {&e}), 4, sums);
             bool const covered = !motion.cells.empty() && motion.cells.front().from <= e.begin &&
                                  e.end() <= motion.cells.back().to;
             if (!covered && e.end() > e.begin) range.assign(curves.size(), traits::entire());

@@ -46,10 +46,11 @@ public:
         known_motions result{narrowed.prior, {}};
         if (is_empty(result.rest)) return result;
         auto motions = std::make_shared<std::vector<observed_motion>>();
-        auto const model = opened(narrowed);
+        auto model = opened(narrowed);
+        auto const sums = find_state_sums(model.g, model.rate);
         for (auto const& e : narrowed.experiments) {
             motions->push_back(
-                proved_motion(model, narrowed.prior, e, measured_states(model, {&e}), 4));
+                proved_motion(model, narrowed.prior, e, measured_states(model, {&e}), 4, sums));
         }
         auto const shown = carried_ == recorded_
                                ? nullptr

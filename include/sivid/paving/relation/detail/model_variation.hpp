@@ -35,9 +35,11 @@ public:
     /// @param channels  that show the states
     /// @param believed  whether states of which nothing else is known keep their own ranges; else
     ///                  nothing is assumed
+    /// @param sums      of states of the model, by which they are enclosed, too
     model_variation(bound_model const& model, box const& prior, experiment const& e,
-                    std::vector<std::optional<std::size_t>> const& channels, bool believed = true)
-        : cells_(model, prior, e, channels, believed) {}
+                    std::vector<std::optional<std::size_t>> const& channels, bool believed = true,
+                    std::vector<state_sum> const& sums = {})
+        : cells_(model, prior, e, channels, believed, sums) {}
 
     [[nodiscard]] motion_cells const& cells() const { return cells_; }
     /// Encloses the motions, which are known at the samples of all states from now on.
@@ -162,7 +164,8 @@ private:
             auto const known = in_gaps(result);
             auto const tube = within(reach, known);
             for (std::size_t c = 0; c < cells_.size(); ++c) {
-                rates[c] = both(cells_.rates_in(range, c, tube[c]), slopes_of_data(c, known));
+                rates[c] = motion_cells::both(slopes_of_data(c, known),
+                                              cells_.rates_in(range, c, tube[c]));
             }
             auto const better = measure(tube, rates);
             bool gained = false;
@@ -196,15 +199,6 @@ private:
         }
         return result;
     }
-    /// Where both say something that agrees; the second one where they do not.
-    [[nodiscard]] static box both(box const& a, box const& b) {
-        box result = b;
-        for (std::size_t i = 0; i < b.size(); ++i) {
-            result[i] = agreed(b[i], a[i]);
-        }
-        return result;
-    }
-
     /// The tubes of measured states over each cell; where there is none, `reach`, or the state's
     /// own range without one.
     [[nodiscard]] std::vector<box> within(std::vector<box> const& reach,

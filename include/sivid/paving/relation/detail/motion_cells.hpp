@@ -5,7 +5,10 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/graph_range.hpp>
 #include <sivid/model/problem.hpp>
+#include <sivid/model/structure/state_sum.hpp>
 #include <sivid/paving/relation/detail/derivative_bound.hpp>
+#include <sivid/paving/relation/detail/kept_range.hpp>
+#include <sivid/paving/relation/detail/state_ties.hpp>
 #include <sivid/paving/relation/input_range.hpp>
 #include <sivid/paving/relation/integrand_set.hpp>
 #include <sivid/paving/relation/state_samples.hpp>
@@ -23,7 +26,7 @@
 
 namespace sivid {
 
-/// Where the states lie over each cell, and at each end of a cell.
+/// Where the states, then the sums lie over each cell, and at each end of a cell.
 struct motion_reach {
     std::vector<box> over, at;
 };
@@ -42,16 +45,17 @@ public:
 
     /// @param model     with its inputs as leaves
     /// @param channels  that show the states
-    /// @param believed  whether states of which nothing else is known keep their own ranges
+    /// @param believed  whether states of which nothing else is known keep their own ranges; else
+    ///                  they keep what the model proves that they keep (`kept_sides`)
+    /// @param sums      of the model's states; each is carried as a further state
     motion_cells(bound_model const& model, box const& prior, experiment const& e,
-                 std::vector<std::optional<std::size_t>> const& channels, bool believed)
+                 std::vector<std::optional<std::size_t>> const& channels, bool believed,
+                 std::vector<state_sum> const& sums = {})
         : g_(std::make_unique<graph>(model.g)),
           prior_(prior),
           inputs_(e.inputs),
           initial_(e.initial) {
         auto const n = model.state_count();
-        for (auto const& s : model.about.states)
-            limits_.push_back(believed ? s.limit.range() : traits::entire());
         std::vector<double> times;
         double spacing = HUGE_VAL;
         samples_.resize(n);
@@ -64,7 +68,17 @@ public:
         }
         for (auto const& p : pairs_in(*g_, model.rate))
             if (samples_[p.q] && !samples_[p.r]) pairs_.push_back(p);
-        set_ = integrand_set::of(*g_, model.rate, n, e.inputs.size());
+        auto functions = model.rate;
+        for (auto const& s : sums) functions.push_back(s.rate);
+        set_ = integrand_set::of(*g_, functions, n, e.inputs.size());
+        if (believed) {
+            for (auto const& s : model.about.states) limits_.push_back(s.limit.range());
+        } else {
+            auto const kept = paving_detail::kept_sides(set_, n, model, prior, e)();
+            limits_.assign(kept.begin(), kept.end());
+        }
+        limits_.resize(n + sums.size(), traits::entire());
+        ties_.emplace(*g_, prior, n, sums);
         cut(std::move(times), spacing, e);
     }
 
@@ -95,29 +109,31 @@ public:
     }
     [[nodiscard]] graph_range range_of_rates() const { return {*g_, set_.functions}; }
 
+    /// What two enclosures say, side by side; the first where they do not agree.
+    [[nodiscard]] static box both(box x, box const& known) {
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = agreed(x[i], known[i]);
+        return x;
+    }
+
     /// Encloses the model's motions, from the samples before and from those after. A state that is
     /// the rate of a sampled one is told by what that changes by, too (`derivative_bound`).
     [[nodiscard]] motion_reach enclosures() const {
         auto range = range_of_rates();
-        auto const n = samples_.size();
+        auto const n = limits_.size();
         auto const count = cells_.size();
-        std::map<std::size_t, graph_range> own; // rates of states that are not sampled, with slopes
-        for (std::size_t i = 0; i < n; ++i) {
-            if (!samples_[i]) {
-                own.emplace(i, graph_range(*g_, {set_.functions[i], set_.slopes[i][i]}));
-            }
-        }
+        own_rates own;
         motion_reach result{std::vector<box>(count, box(n)), std::vector<box>(count + 1, box(n))};
         // What the marks of the pass before say at each boundary: [pair][boundary]
         std::vector<std::vector<std::vector<derivative_bound::view>>> other(
             pairs_.size(), std::vector<std::vector<derivative_bound::view>>(count + 1));
-        int const passes = pairs_.empty() ? 2 : 3; // once more with what both directions say
+        int passes = pairs_.empty() ? 2 : 3; // once more with what both directions say
         for (int pass = 0; pass < passes; ++pass) {
             bool const forward = pass % 2 == 0, again = pass > 0;
             box at(n);
             for (std::size_t i = 0; i < n; ++i) {
                 at[i] = forward && i < initial_.size() ? initial_[i] : own_range(i);
             }
+            ties_->by_sums(at);
             std::vector<derivative_bound> derived(pairs_.size());
             auto const arrive = [&](std::size_t boundary) {
                 double const t = boundary == count ? cells_.back().to : cells_[boundary].from;
@@ -125,6 +141,7 @@ public:
                     if (auto const seen = sample_at(i, t)) at[i] = agreed(*seen, at[i]);
                     if (again) at[i] = agreed(at[i], result.at[boundary][i]);
                 }
+                ties_->by_sums(at);
                 for (std::size_t p = 0; p < pairs_.size(); ++p) {
                     if (!sample_at(pairs_[p].q, t)) continue;
                     derived[p].mark(t, at[pairs_[p].q]);
@@ -143,9 +160,7 @@ public:
             for (std::size_t s = 0; s < count; ++s) {
                 auto const c = forward ? s : count - 1 - s;
                 arrive(forward ? c : c + 1);
-                auto over = step(range, c, at, forward);
-                for (std::size_t i = 0; i < n && again; ++i)
-                    over[i] = agreed(over[i], result.over[c][i]);
+                auto over = step(range, own, c, at, forward, again ? &result.over[c] : nullptr);
                 auto const rates = rates_in(range, c, over);
                 auto const lasting = forward ? length(c) : traits::neg(length(c));
                 for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -154,17 +169,18 @@ public:
                 for (std::size_t i = 0; i < n; ++i) {
                     auto const moved = traits::add(at[i], traits::mul(lasting, rates[i]));
                     auto const end = agreed(over[i], moved);
-                    at[i] = samples_[i]
-                                ? end
-                                : agreed(end, damped_end(own.at(i), c, i, at[i], over, lasting));
+                    bool const told = i >= samples_.size() || (samples_[i] && !own.needed);
+                    at[i] = told ? end : agreed(end, by_itself(own, c, i, at[i], over, lasting));
                 }
                 result.over[c] = std::move(over);
             }
             if (count > 0) arrive(forward ? count : 0);
+            if (pass == 1 && own.needed) passes = 4; // what later samples tell, and what that does
         }
         return result;
     }
-    /// Takes what `enclosures` say of states that nobody measured for samples of them.
+    /// Takes what `enclosures` say of states that nobody measured for samples of them, and narrows
+    /// the samples of the others by it.
     void add_derived_samples(motion_reach const& reach) {
         std::vector<double> times;
         for (auto const& s : samples_) {
@@ -173,21 +189,21 @@ public:
         std::sort(times.begin(), times.end());
         times.erase(std::unique(times.begin(), times.end()), times.end());
         for (std::size_t i = 0; i < samples_.size() && !cells_.empty(); ++i) {
-            if (samples_[i]) continue;
             state_samples derived;
-            for (double const t : times) {
-                auto const c = static_cast<std::size_t>(
-                    std::lower_bound(cells_.begin(), cells_.end(), t,
-                                     [](cell const& x, double v) { return x.from < v; }) -
-                    cells_.begin());
-                double const at = c < cells_.size() ? cells_[c].from : cells_.back().to;
-                if (at != t) continue;
-                if (!is_bounded(reach.at[c][i])) {
+            for (std::size_t k = 0; samples_[i] && k < samples_[i]->times.size(); ++k) {
+                auto& bound = samples_[i]->bounds[k];
+                auto const c = boundary_at(samples_[i]->times[k]);
+                if (c) bound = agreed(bound, reach.at[*c][i]);
+            }
+            for (std::size_t k = 0; !samples_[i] && k < times.size(); ++k) {
+                auto const c = boundary_at(times[k]);
+                if (!c) continue;
+                if (!is_bounded(reach.at[*c][i])) {
                     derived = {}; // samples are without holes
                     break;
                 }
-                derived.times.push_back(t);
-                derived.bounds.push_back(reach.at[c][i]);
+                derived.times.push_back(times[k]);
+                derived.bounds.push_back(reach.at[*c][i]);
             }
             if (derived.times.size() > 1) samples_[i] = std::move(derived);
         }
@@ -207,6 +223,19 @@ public:
     }
 
 private:
+    /// Rates of single states with their slopes by themselves, made when they are asked for.
+    struct own_rates {
+        std::map<std::size_t, graph_range> of;
+        bool needed = false; ///< Picard's iteration did not settle everywhere
+    };
+    [[nodiscard]] std::optional<std::size_t> boundary_at(double t) const {
+        auto const c = static_cast<std::size_t>(
+            std::lower_bound(cells_.begin(), cells_.end(), t,
+                             [](cell const& x, double v) { return x.from < v; }) -
+            cells_.begin());
+        double const at = c < cells_.size() ? cells_[c].from : cells_.back().to;
+        return at == t ? std::optional(c) : std::nullopt;
+    }
     void cut(std::vector<double> times, double spacing, experiment const& e) {
         if (times.empty() || !std::isfinite(spacing)) return;
         std::sort(times.begin(), times.end());
@@ -227,31 +256,45 @@ private:
         }
     }
 
-    /// Encloses a state at the end of a cell, from its own equation as one that is linear in it,
-    /// \f$ y' = g(t) + J(t) y \f$ for \f$ y = x_i - c \f$: what damps itself does not spread.
+    /// Encloses a state at the end of a cell (or up to there), from its own equation as one that is
+    /// linear in it, \f$ y' = g(t) + J(t) y \f$ for \f$ y = x_i - c \f$: what damps itself does
+    /// not spread. Where needed, c is each end of the own range, too: what is proportional to
+    /// itself does not reach 0.
     /// @param start  at the begin, @param over  all states over the cell
-    [[nodiscard]] interval damped_end(graph_range& range, std::size_t c, std::size_t i,
-                                      interval const& start, box over,
-                                      interval const& lasting) const {
+    /// @param lasting  how long it takes, or all times up to there
+    [[nodiscard]] interval by_itself(own_rates& rates, std::size_t c, std::size_t i,
+                                     interval const& start, box over,
+                                     interval const& lasting) const {
         auto const f = set_.functions[i];
         auto const slope = set_.slopes[i][i];
-        if (!set_.continuous[i] || !is_bounded(start)) return traits::entire();
-        range.evaluate(leaves(c, over));
-        auto const growth = range.value(slope);
-        if (range.undefined(f) || range.undefined(slope)) return traits::entire();
-        auto const centre = traits::point(mid(start));
-        over[i] = centre;
-        range.evaluate(leaves(c, over));
-        auto const drive = range.value(f);
-        if (range.undefined(f) || !is_bounded(growth)) return traits::entire();
-        auto const carried = traits::exp(traits::mul(growth, lasting));
-        auto const since = traits::mul(lasting, traits::hull(traits::point(1.0), carried));
-        auto const own = traits::mul(carried, traits::sub(start, centre));
-        return traits::add(centre, traits::add(own, traits::mul(since, drive)));
+        auto result = traits::entire();
+        if (!set_.continuous[i] || !is_bounded(start)) return result;
+        auto& range = rates.of.try_emplace(i, *g_, std::vector<node_id>{f, slope}).first->second;
+        auto const own = over[i];
+        for (double const c0 : {mid(start), own_range(i).lower(), own_range(i).upper()}) {
+            if (!std::isfinite(c0)) continue;
+            auto const centre = traits::point(c0);
+            over[i] = hull(own, centre);
+            range.evaluate(leaves(c, over));
+            auto const growth = range.value(slope);
+            if (range.undefined(f) || range.undefined(slope)) break;
+            over[i] = centre;
+            range.evaluate(leaves(c, over));
+            if (range.undefined(f)) break;
+            auto const carried = traits::exp(traits::mul(growth, lasting));
+            auto const since = traits::mul(lasting, traits::hull(traits::point(1.0), carried));
+            auto const moved = traits::add(traits::mul(carried, traits::sub(start, centre)),
+                                           traits::mul(since, range.value(f)));
+            result = agreed(result, traits::add(centre, moved));
+            if (!rates.needed) break;
+        }
+        return result;
     }
     /// By Picard's iteration, into a box whose faces no motion reaches: that needs no Lipschitz
-    /// condition. What does not settle is the state's own range.
-    [[nodiscard]] box step(graph_range& range, std::size_t c, box const& at, bool forward) const {
+    /// condition. What does not settle is the state's own range, and what follows from that.
+    /// @param known  encloses the motion over the cell, too, or nothing
+    [[nodiscard]] box step(graph_range& range, own_rates& own, std::size_t c, box const& at,
+                           bool forward, box const* known) const {
         auto const n = at.size();
         auto const h = forward ? length(c) : traits::neg(length(c));
         auto const time = traits::mul(traits::bounds(0.0, 1.0), h);
@@ -263,10 +306,11 @@ private:
         // A round carries what moves one state on to those that it drives. In the end each round
         // gives up one state at least.
         auto const patience = 8 + 2 * n;
-        bool settled = false;
+        bool settled = false, given_up = false;
         for (std::size_t k = 0; !settled && k < patience + n + 2; ++k) {
             auto const rates = rates_in(range, c, guess);
             settled = true;
+            given_up = k > patience;
             for (std::size_t i = 0; i < n; ++i) {
                 auto const next = agreed(most[i], traits::add(at[i], traits::mul(time, rates[i])));
                 auto const& g = guess[i];
@@ -277,11 +321,18 @@ private:
                 guess[i] = k > patience ? most[i] : grown(hull(next, guess[i]), most[i]);
             }
         }
-        if (!settled) return most;
-        // One step inward.
-        auto const rates = rates_in(range, c, guess);
-        for (std::size_t i = 0; i < n; ++i) {
-            guess[i] = agreed(guess[i], traits::add(at[i], traits::mul(time, rates[i])));
+        if (!settled) guess = most;
+        own.needed = own.needed || given_up;
+        // One step inward; more where the guess is not by Picard's iteration.
+        for (int round = given_up ? 3 : 1; round > 0; --round) {
+            if (known != nullptr) guess = both(guess, *known);
+            auto const rates = rates_in(range, c, guess);
+            for (std::size_t i = 0; i < n; ++i) {
+                guess[i] = agreed(guess[i], traits::add(at[i], traits::mul(time, rates[i])));
+                if (given_up && i < samples_.size())
+                    guess[i] = agreed(guess[i], by_itself(own, c, i, at[i], guess, time));
+            }
+            ties_->by_sums(guess);
         }
         return guess;
     }
@@ -291,7 +342,7 @@ private:
         return agreed(most, traits::add(x, traits::bounds(-more, more)));
     }
     [[nodiscard]] std::optional<interval> sample_at(std::size_t i, double t) const {
-        if (!samples_[i]) return std::nullopt;
+        if (i >= samples_.size() || !samples_[i]) return std::nullopt;
         auto const& times = samples_[i]->times;
         auto const at = std::lower_bound(times.begin(), times.end(), t);
         if (at == times.end() || *at != t) return std::nullopt;
@@ -302,7 +353,8 @@ private:
     box prior_;
     std::vector<signal> inputs_;
     box initial_;
-    std::vector<interval> limits_;
+    std::vector<interval> limits_; ///< of states, then sums
+    std::optional<state_ties> ties_;
     std::vector<std::optional<state_samples>> samples_;
     std::vector<derivative_pair> pairs_; ///< q is sampled, r is not
     integrand_set set_;

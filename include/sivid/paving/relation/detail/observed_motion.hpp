@@ -5,6 +5,7 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/differentiate.hpp>
 #include <sivid/model/graph/graph_range.hpp>
+#include <sivid/model/structure/state_sum.hpp>
 #include <sivid/paving/relation/channel_tube.hpp>
 #include <sivid/paving/relation/detail/model_variation.hpp>
 #include <sivid/paving/relation/input_range.hpp>
@@ -93,7 +94,8 @@ struct motion_knowledge {
     std::vector<std::vector<double>> in_gaps; ///< what their rates vary by in each gap; or none
     std::vector<std::vector<interval>>
         curvatures{}; ///< where the rates of rates lie there; or none
-    std::vector<std::optional<state_samples>> derived{}; ///< of states that no channel shows
+    /// Samples of states that no channel shows, and of the others narrowed ones; or none.
+    std::vector<std::optional<state_samples>> derived{};
     /// Encloses a state between two times: (state, from, to); may be empty.
     std::function<interval(std::size_t, double, double)> reach{};
 };
@@ -118,7 +120,7 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
     double spacing = HUGE_VAL;
     double end = e.begin;
     for (std::size_t i = 0; i < n; ++i) {
-        bool const derived = !channels[i] && i < known.derived.size() && known.derived[i];
+        bool const derived = i < known.derived.size() && known.derived[i];
         if (!channels[i] && !derived) continue;
         auto const s = derived ? *known.derived[i] : state_samples::of(e, i, *channels[i]);
         auto const variations = known.in_gaps.empty()
@@ -127,16 +129,16 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
         auto const curvatures =
             known.curvatures.empty() ? std::vector<interval>{} : known.curvatures[i];
         result.tubes[i] = channel_tube::of_gaps(s.times, s.bounds, variations, curvatures);
-        if (derived) continue;
+        result.boundaries.insert(result.boundaries.end(), s.times.begin(), s.times.end());
+        end = std::max(end, s.times.back());
+        if (!channels[i]) continue;
         auto const alone = state_samples::sensed(e, *channels[i]);
         auto const skipped = static_cast<std::ptrdiff_t>(s.times.size() - alone.times.size());
         if (!alone.times.empty()) {
             result.sensed[i] = channel_tube::of_gaps(
                 alone.times, alone.bounds, {variations.begin() + skipped, variations.end()});
         }
-        result.boundaries.insert(result.boundaries.end(), s.times.begin(), s.times.end());
         if (s.times.size() > 1) spacing = std::min(spacing, s.spacing());
-        end = std::max(end, s.times.back());
     }
     if (!(end > e.begin)) return result;
     add_knots(result.boundaries, e.inputs, e.begin, end);
@@ -176,10 +178,12 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
 }
 
 /// The same by what the model proves of its own motions over the prior.
+/// @param sums  of states of the model (`find_state_sums`)
 [[nodiscard]] inline observed_motion
 proved_motion(bound_model const& model, box const& prior, experiment const& e,
-              std::vector<std::optional<std::size_t>> const& channels, std::size_t cells_per_gap) {
-    model_variation by_model(model, prior, e, channels, false);
+              std::vector<std::optional<std::size_t>> const& channels, std::size_t cells_per_gap,
+              std::vector<state_sum> const& sums) {
+    model_variation by_model(model, prior, e, channels, false, sums);
     auto const reach = by_model.enclose();
     auto const over = [&](std::size_t i, double from, double to) {
         return by_model.cells().over(reach, i, from, to);

@@ -5,6 +5,7 @@
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/differentiate.hpp>
 #include <sivid/model/graph/rewrite.hpp>
+#include <sivid/model/structure/state_sum.hpp>
 #include <sivid/paving/relation/detail/separation.hpp>
 #include <sivid/paving/relation/linear_refutation.hpp>
 #include <sivid/space/box.hpp>
@@ -37,9 +38,13 @@ struct relation_row {
     bool bounded = true;               ///< all ranges are
     bool uses_inputs = false;
     bool kinematic = false; ///< a function of states only
-    /// Further unknown coefficients, after those of the functions: of what a state's sensor changes
-    /// by over the window, or (nothing) of the window's length.
-    std::vector<std::optional<std::size_t>> differences;
+    /// What further unknown coefficients, after those of the functions, stand before: a factor
+    /// times what a state's sensor changes by over the window, or (no state) the window's length.
+    struct difference {
+        std::optional<std::size_t> state;
+        interval factor{1.0};
+    };
+    std::vector<difference> differences;
     /// Inequalities between coefficients, from quotients of which the prior knows more than of the
     /// coefficients one by one: (row in z, bound).
     std::vector<std::pair<std::vector<double>, double>> ratios;
@@ -200,14 +205,33 @@ inline void combine(graph& g, relation_row& row, double growth) {
 }
 
 /// Adds an unknown coefficient of a difference, see `relation_row::differences`.
-inline void add_difference(relation_row& row, std::optional<std::size_t> state,
+inline void add_difference(relation_row& row, relation_row::difference const& d,
                            interval const& range) {
     bool const falling = std::abs(range.upper()) < std::abs(range.lower());
-    row.differences.push_back(state);
+    row.differences.push_back(d);
     row.range.push_back(range);
     row.anchor.push_back(falling ? range.upper() : range.lower());
     row.width.push_back(falling ? -width(range) : width(range));
     row.bounded = row.bounded && is_bounded(range);
+}
+
+/// The row of a sum of states \f$ x_i + \sum_k a_k x_k \f$ with the rate r: \f$ x_i' = r -
+/// \sum_k a_k x_k' \f$, of which the windows need nothing between samples but r.
+[[nodiscard]] inline relation_row make_sum_row(graph& g, state_sum const& sum, box const& prior) {
+    auto row = make_relation_row(g, sum.rate, sum.first, prior);
+    std::vector<node_id> nodes;
+    for (auto const& w : sum.weights) {
+        nodes.push_back(w.factor);
+        for (auto const& factor : w.product) nodes.push_back(factor.first);
+    }
+    graph_range range(g, nodes);
+    range.evaluate({interval(0.0), {}, prior, {}});
+    for (auto const& w : sum.weights) {
+        auto const factor = interval_traits<interval>::neg(range.value(w.factor));
+        row.theta.push_back(w.product);
+        add_difference(row, {w.state, factor}, range_of(w.product, range));
+    }
+    return row;
 }
 
 /// Two inequalities for each window (numbers 2 i and 2 i + 1), then those between coefficients. A

@@ -62,11 +62,12 @@ public:
                                        sampled_signal({0.0}, {0.0}, interpolation::linear));
         model_ = bind(problem.model, problem.choice, open);
         channels_ = measured_states(model_, trusted);
+        if (proved) sums_ = find_state_sums(model_.g, model_.rate);
         auto const laws = proved ? std::vector<std::vector<rate_variation>>{} : laws_of(trusted);
         for (std::size_t e = 0; e < trusted.size() && !stopped(); ++e) {
             auto const& known = *trusted[e];
             motions_.push_back(proved ? proved_motion(model_, problem.prior, known, channels_,
-                                                      options.cells_per_gap)
+                                                      options.cells_per_gap, sums_)
                                       : observe_motion(model_, problem.prior, known, channels_,
                                                        {laws[e], {}, {}}, options.cells_per_gap));
         }
@@ -83,6 +84,10 @@ public:
     relation_windows(relation_windows const&) = delete; // what is prepared points into the graph
     relation_windows& operator=(relation_windows const&) = delete;
 
+    /// Those of the states, then those of sums of states: where all is proved.
+    [[nodiscard]] std::size_t equations_and_sums() const {
+        return about().states.size() + sums_.size();
+    }
     [[nodiscard]] model_description const& about() const { return problem_->model.about; }
     [[nodiscard]] observed_motion const& motion(std::size_t m) const { return motions_[m]; }
     [[nodiscard]] std::vector<observed_motion> const& motions() const { return motions_; }
@@ -106,6 +111,8 @@ public:
     [[nodiscard]] std::string obstacle(std::size_t i) {
         if (stopped()) return "there was no time";
         if (!obstacle_.empty()) return obstacle_;
+        if (is_sum(i))
+            return prepared(i).row.bounded ? "" : "a coefficient is unbounded over the prior";
         if (!channels_[i] && stated_.pair_of(i))
             return stated_.bounded(i) ? "" : "a coefficient is unbounded over the prior";
         auto const& e = prepared(i);
@@ -121,6 +128,7 @@ public:
     /// The ways in which equation i can be enclosed, the one with the fewest sensors first; of a
     /// state that is known by its integral alone the weak form, beside which others tell nothing.
     [[nodiscard]] std::vector<window_way> ways(std::size_t i) {
+        if (is_sum(i)) return {window_way::direct};
         std::vector<window_way> const stated{window_way::stated, window_way::stated_middle};
         if (!channels_[i] && stated_.pair_of(i)) return stated;
         if (!shown(i)) return {window_way::weak};
@@ -263,12 +271,13 @@ private:
         std::pair const key{i, way == window_way::damped};
         if (auto const found = rows_.find(key); found != rows_.end()) return found->second;
         auto& e = rows_[key];
-        e.row = make_relation_row(model_.g, model_.rate.at(i), i, problem_->prior);
+        e.row = is_sum(i) ? make_sum_row(model_.g, sums_[i - model_.state_count()], problem_->prior)
+                          : make_relation_row(model_.g, model_.rate[i], i, problem_->prior);
         if (suspect_ != nullptr && suspect_->state == i) {
-            add_difference(e.row, i, traits::neg(suspect_->scale));
-            add_difference(e.row, std::nullopt, traits::neg(suspect_->drift));
+            add_difference(e.row, {i}, traits::neg(suspect_->scale));
+            add_difference(e.row, {}, traits::neg(suspect_->drift));
             for (auto const& [m, share] : suspect_->mixing) {
-                add_difference(e.row, m, traits::neg(share));
+                add_difference(e.row, {m}, traits::neg(share));
             }
         }
         if (key.second) combine(model_.g, e.row, damping_of(model_, i, motions_));
@@ -276,6 +285,7 @@ private:
                                   about().inputs.size());
         return e;
     }
+    [[nodiscard]] bool is_sum(std::size_t i) const { return i >= model_.state_count(); }
     /// Whether a state is known at samples: measured ones, or derived ones.
     [[nodiscard]] bool shown(std::size_t i) const {
         auto const known = [i](observed_motion const& m) { return m.tubes[i].has_value(); };
@@ -314,7 +324,7 @@ private:
         auto& e = prepared(i, way);
         if (!e.integrals.empty()) return e;
         std::vector<derivative_pair> pairs;
-        if (e.row.centre.empty()) pairs = pairs_of(e.row.equation);
+        if (e.row.centre.empty() && !is_sum(i)) pairs = pairs_of(i);
         for (auto const& m : motions_) {
             // Slow beside the gaps, over which nothing is known, and quick beside the record.
             auto const& own = m.tubes[e.row.equation];
@@ -344,7 +354,7 @@ private:
                                traits::mul(integral.weight_at(first), tube.over(w.from, w.from))));
         auto const q_at = [&](auto q, auto k) { return motion.state_over(q, ends[k], ends[k]); };
         bool parts = way == window_way::by_parts;
-        for (auto const& p : pairs_of(e.row.equation)) {
+        for (auto const& p : parts ? pairs_of(e.row.equation) : std::vector<derivative_pair>{}) {
             parts = parts && motion.sensed[p.q] && motion.sensed[p.q]->covers(w.from, w.to);
         }
         for (std::size_t j = 0; j < e.row.functions.size(); ++j) {
@@ -356,7 +366,7 @@ private:
         }
         auto const rest = w.a.back();
         w.a.pop_back();
-        for (auto const& state : e.row.differences) {
+        for (auto const& [state, factor] : e.row.differences) {
             if (!state) {
                 w.a.push_back(w.length);
                 continue;
@@ -364,7 +374,8 @@ private:
             auto const& shown =
                 *state == e.row.equation ? own_tube(e.row, motion) : motion.tubes[*state];
             if (!shown || !shown->covers(w.from, w.to)) return std::nullopt;
-            w.a.push_back(traits::sub(shown->over(w.to, w.to), shown->over(w.from, w.from)));
+            auto const change = traits::sub(shown->over(w.to, w.to), shown->over(w.from, w.from));
+            w.a.push_back(traits::mul(factor, change));
             if (!is_bounded(w.a.back())) return std::nullopt;
         }
         w.a.push_back(rest);
@@ -379,6 +390,7 @@ private:
     bool stopped_ = false;
     bound_model model_;
     std::vector<std::optional<std::size_t>> channels_;
+    std::vector<state_sum> sums_;
     std::vector<observed_motion> motions_;
     std::vector<derivative_pair> pairs_;
     std::map<std::pair<std::size_t, bool>, prepared_equation> rows_; ///< (equation, damped)

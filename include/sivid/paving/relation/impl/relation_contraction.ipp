@@ -16,6 +16,7 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -175,7 +176,7 @@ SIVID_DECL assessment<> relation_test::operator()(box const& x) const {
     for (std::size_t round = 0; round < options_.rounds; ++round) {
         relation_windows windows(narrowed, how, nullptr, tube_source::proved);
         std::vector<paving_detail::known_product> known;
-        for (std::size_t i = 0; i < narrowed.model.about.states.size(); ++i) {
+        for (std::size_t i = 0; i < windows.equations_and_sums(); ++i) {
             auto more = paving_detail::known_products(windows, i);
             if (!more) return nothing;
             std::move(more->begin(), more->end(), std::back_inserter(known));
@@ -194,9 +195,17 @@ SIVID_DECL assessment<> relation_test::operator()(box const& x) const {
     return {.rest = std::move(rest), .smear = std::move(smear)};
 }
 
+SIVID_DECL std::string relation_obstacle(identification_problem const& problem) {
+    if (problem.prior.size() == 0) return "no parameter is unknown";
+    if (problem.model.has_memory()) return "the model has delays, plays or rate limits";
+    bool const trusted = std::any_of(problem.experiments.begin(), problem.experiments.end(),
+                                     [](experiment const& e) { return e.outliers == 0; });
+    return trusted ? "" : "every experiment has an outlier budget: no window can be trusted";
+}
+
 SIVID_DECL box contract_by_relations(identification_problem const& problem,
                                      relation_contraction_options const& options) {
-    if (problem.model.has_memory() || problem.prior.size() == 0) return problem.prior;
+    if (!relation_obstacle(problem).empty()) return problem.prior;
     auto const found = relation_test(problem, options)(problem.prior);
     if (found.verdict != box_verdict::outside) return found.rest;
     return empty_box(problem.prior.size());
