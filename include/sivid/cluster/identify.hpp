@@ -13,12 +13,12 @@
 #include <sivid/cluster/working_coordinator.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/detail/posed_search.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -41,11 +41,11 @@ template <batch_set_test Test>
 
 namespace identify_detail {
 
-/// What a worker has to know of a search: budgets of outliers, whose it is, the fit, what windows
-/// left.
+/// What a worker has to know of a search: budgets of outliers, whose it is, the fit, what was left
+/// before it.
 [[nodiscard]] inline std::string about(identification_problem const& problem, identity const& who,
                                        std::optional<approximate_fit> const& fit,
-                                       std::optional<window_contraction> const& windows) {
+                                       std::optional<remainder> const& left) {
     wire_writer out;
     out.put(std::uint64_t{problem.experiments.size()});
     for (auto const& e : problem.experiments) out.put(std::uint64_t{e.outliers});
@@ -55,10 +55,10 @@ namespace identify_detail {
         out.put(fit->parameters);
         for (auto const& x : fit->starts) out.put(x);
     }
-    out.put(windows.has_value());
-    if (windows) {
-        out.put(windows->rest);
-        for (auto const& x : windows->starts) out.put(x);
+    out.put(left.has_value());
+    if (left) {
+        out.put(left->parameters);
+        for (auto const& x : left->starts) out.put(x);
     }
     return out.take();
 }
@@ -85,43 +85,46 @@ public:
         auto who = identity_of(problem_, options_, also_);
         // Of another problem nothing else can be read; the coordinator will refuse this one.
         if (take_identity(in).differing(who) != nullptr) return who;
-        working_ = paving_detail::as_searched(problem_, options_.algorithm);
-        search_.emplace(working_, dependence_of(working_), options_);
+        auto const map = options_.test.contract ? coordinates_of(problem_)
+                                                : std::optional<reduction>{};
+        asked_.emplace(map ? map->problem() : problem_, options_.test, options_.search,
+                       work_limit(0.0));
         std::optional<approximate_fit> fit;
         if (in.flag()) {
             fit.emplace();
             fit->parameters = in.reals();
             for (std::size_t e = 0; e < experiments; ++e) fit->starts.push_back(in.reals());
         }
-        std::optional<window_contraction> windows;
-        auto const& prior = search_->posed().prior;
+        auto const& prior = asked_->whole().prior;
         if (in.flag()) {
-            windows.emplace();
-            windows->rest = in.sides(prior.size());
-            for (auto const& e : problem_.experiments) {
-                windows->starts.push_back(in.sides(e.initial.size()));
-            }
+            remainder left{in.sides(prior.size())};
+            for (auto const& e : problem_.experiments)
+                left.starts.push_back(in.sides(e.initial.size()));
+            asked_->narrow(left);
         }
         in.finish();
-        search_->prepare(fit, windows);
-        boxes_.emplace(search_->test(), prior);
+        if (fit) {
+            auto const point = point_box(fit->parameters);
+            asked_->propose(*fit, map ? map->forward(point) : point);
+        }
+        boxes_.emplace(asked_->search_test(), prior);
         return who;
     }
     [[nodiscard]] std::string answer(std::string_view request) { return (*boxes_)(request); }
 
 private:
-    identification_problem problem_, working_;
+    identification_problem problem_;
     identify_options options_;
     std::string also_;
-    std::optional<paving_detail::posed_search> search_;
+    std::optional<inquiry> asked_;
     std::optional<box_server<feasibility_test>> boxes_;
 };
 
 } // namespace identify_detail
 
 /// `sivid::identify` with the box search shared with others, who call `help_identify` for the same
-/// problem and options; this process works, too, in a thread of its own. The fit, windows and what
-/// completes the result are done here alone.
+/// problem and options; this process works, too, in a thread of its own. What comes before the
+/// search and what completes the result are done here alone.
 /// @guarantee  what `sivid::identify` returns, bit for bit, whoever helps and however many; budgets
 ///             and `keep_going` end the work of all. A resumed search may have others than before
 /// @param others  are referred to
@@ -137,20 +140,19 @@ private:
                                              traffic* spent = nullptr) {
     released_at_end idle(others);
     auto const mine = identify_detail::identity_of(problem, options, also);
-    options.invert_by = [&](feasibility_test& test, box const& prior,
-                            inversion_options const& search,
-                            std::optional<approximate_fit> const& fit,
-                            std::optional<window_contraction> const& windows) {
-        if (windows && windows->empty()) return sivid::invert(test, prior, search);
-        box_server<feasibility_test> boxes(test, prior);
-        working_coordinator all(
-            others, identify_detail::about(problem, mine, fit, windows), mine,
-            [&boxes](worker&, std::string_view request) { return boxes(request); });
-        idle.work_has_come();
-        auto found = cluster::invert(all.helpers(), test, prior, search);
-        if (spent != nullptr) *spent = all.helpers().traffic();
-        return found;
-    };
+    options.invert_by =
+        [&](feasibility_test& test, box const& prior, inversion_options const& search,
+            std::optional<approximate_fit> const& fit, std::optional<remainder> const& left) {
+            if (left && is_empty(left->parameters)) return sivid::invert(test, prior, search);
+            box_server<feasibility_test> boxes(test, prior);
+            working_coordinator all(
+                others, identify_detail::about(problem, mine, fit, left), mine,
+                [&boxes](worker&, std::string_view request) { return boxes(request); });
+            idle.work_has_come();
+            auto found = cluster::invert(all.helpers(), test, prior, search);
+            if (spent != nullptr) *spent = all.helpers().traffic();
+            return found;
+        };
     return sivid::identify(problem, std::move(options));
 }
 

@@ -70,9 +70,9 @@ TEST_CASE("identification by Runge-Kutta finds what is feasible, with every set"
     auto const problem = plain_problem::make();
     auto const exact = plain_problem::feasible();
     for (auto const set : {carried_set::taylor_model, carried_set::doubleton}) {
-        for (auto const a : {algorithm::contracting, algorithm::report_1}) {
+        for (bool const contracting : {true, false}) {
             identify_options options;
-            options.algorithm = a;
+            if (!contracting) options = by_bisection(options);
             static_cast<run_options&>(options.test) = with(rk4());
             options.test.set = set;
             auto const found = identify(problem, options);

@@ -142,7 +142,6 @@ inline void add_computation(page& out, identification_view const& v) {
     out.prose(std::string{"The run took "} + duration_text(v.statistics.seconds) + " for " +
               count_text(v.statistics.boxes) + " boxes and " +
               count_text(v.statistics.integrations) + " validated integrations. " +
-              (v.statistics.before.empty() ? "" : sentence(v.statistics.before) + " ") +
               (v.statistics.stop_reason.empty()
                    ? ""
                    : std::string{"Why it stopped: "} + sentence(v.statistics.stop_reason)));
@@ -155,6 +154,17 @@ inline void add_computation(page& out, identification_view const& v) {
                           percent_interval(v.volume_outer)});
     }
     out.add(t);
+    if (!v.tried.empty()) {
+        out.subsection("What was tried");
+        table tried{.columns = {{"contractor", column_kind::symbol},
+                                {"what came of it"},
+                                {"why it was tried, or not", column_kind::note},
+                                {"effort", column_kind::note}},
+                    .caption = "Before the search, in this order; the shares are those of the "
+                               "volume that each was given."};
+        for (auto const& r : v.tried) tried.rows.push_back({r.by, r.outcome, r.why, r.effort});
+        out.add(tried);
+    }
     if (!v.comparison.empty()) {
         out.subsection("Against other ways to solve it");
         table c{.columns = {{"method", column_kind::symbol},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/judge/detail/equation_guide.hpp>
+#include <sivid/paving/strategy/detail/equation_guide.hpp>
 
 #include <sivid/model/change/detail/slower_inputs.hpp>
 #include <sivid/model/structure/states_seen.hpp>
