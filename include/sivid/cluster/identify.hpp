@@ -45,7 +45,7 @@ namespace identify_detail {
 /// before it.
 [[nodiscard]] inline std::string about(identification_problem const& problem, identity const& who,
                                        std::optional<approximate_fit> const& fit,
-                                       std::optional<remainder> const& left) {
+                                       std::optional<leftover> const& left) {
     wire_writer out;
     out.put(std::uint64_t{problem.experiments.size()});
     for (auto const& e : problem.experiments) out.put(std::uint64_t{e.outliers});
@@ -85,8 +85,8 @@ public:
         auto who = identity_of(problem_, options_, also_);
         // Of another problem nothing else can be read; the coordinator will refuse this one.
         if (take_identity(in).differing(who) != nullptr) return who;
-        auto const map = options_.test.contract ? coordinates_of(problem_)
-                                                : std::optional<reduction>{};
+        auto const map =
+            options_.test.contract ? coordinates_of(problem_) : std::optional<reduction>{};
         asked_.emplace(map ? map->problem() : problem_, options_.test, options_.search,
                        work_limit(0.0));
         std::optional<approximate_fit> fit;
@@ -97,7 +97,7 @@ public:
         }
         auto const& prior = asked_->whole().prior;
         if (in.flag()) {
-            remainder left{in.sides(prior.size())};
+            leftover left{in.sides(prior.size())};
             for (auto const& e : problem_.experiments)
                 left.starts.push_back(in.sides(e.initial.size()));
             asked_->narrow(left);
@@ -142,7 +142,7 @@ private:
     auto const mine = identify_detail::identity_of(problem, options, also);
     options.invert_by =
         [&](feasibility_test& test, box const& prior, inversion_options const& search,
-            std::optional<approximate_fit> const& fit, std::optional<remainder> const& left) {
+            std::optional<approximate_fit> const& fit, std::optional<leftover> const& left) {
             if (left && is_empty(left->parameters)) return sivid::invert(test, prior, search);
             box_server<feasibility_test> boxes(test, prior);
             working_coordinator all(

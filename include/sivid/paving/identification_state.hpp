@@ -15,8 +15,8 @@ namespace sivid {
 /// it: the fit is verified again.
 struct identification_state {
     std::optional<approximate_fit> guess;
-    double seconds = 0;            ///< spent before the search
-    std::optional<remainder> left; ///< before the search; nothing: all of it
+    double seconds = 0;           ///< spent before the search
+    std::optional<leftover> left; ///< before the search; nothing: all of it
     contraction_journal journal{};
     search_state search;
     std::string problem = {}; ///< a digest of what is searched: nothing else goes on from here

@@ -44,7 +44,7 @@ struct identify_options {
     /// Searches in place of `invert`, with the same result: on many machines, say. It is told the
     /// fit and what was left before it, by which the test was prepared.
     std::function<inversion(feasibility_test&, box const& prior, inversion_options const&,
-                            std::optional<approximate_fit> const&, std::optional<remainder> const&)>
+                            std::optional<approximate_fit> const&, std::optional<leftover> const&)>
         invert_by = nullptr;
 };
 

@@ -171,10 +171,9 @@ TEST_CASE("a window that grows from a known start tells many constants") {
     options.search.seconds = 60;
     options.only_hulls = true;
     auto const found = identify(p, options);
-    auto const grown = std::ranges::find(found.journal, true, &contraction_record::asked);
-    REQUIRE(grown != found.journal.end());
-    CHECK(grown->by == "growing window");
-    CHECK(grown->figure("longest window") > 11.9);
+    CHECK(std::ranges::any_of(found.journal, [](auto const& r) {
+        return r.by == "growing window" && r.figure("longest window") > 11.9;
+    }));
     CHECK(contains(found.hull, truth));
     CHECK(found.verdict == verdict::consistent);
 }

@@ -18,8 +18,8 @@ struct cutting : contractor {
         return interval(x.lower(), x.lower() + share * width(x));
     }
     [[nodiscard]] std::string name() const override { return "cutting"; }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const&,
-                                       contraction_record&) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const&,
+                                      contraction_record&) const override {
         auto left = asked.left();
         left.parameters[0] = lower_part(left.parameters[0], side);
         left.starts[0][0] = lower_part(left.starts[0][0], start);

@@ -39,7 +39,7 @@ void each_planted(std::size_t count, Visit const& visit) {
             auto const kinds = diagnosis_support::all_planted();
             auto const& what = kinds[d.below(kinds.size())];
             auto const r = diagnosis_support::record_of(
-                d, what, diagnosis_support::model_of(what.shape, what.rate));
+                d, what, support::model_of(what.shape, what.rate));
             visit(r.problem, r.truth, d);
         } else if (n % 3 == 1) {
             auto const p = support::plant_curve(d, d.coin());

@@ -7,7 +7,9 @@
 
 #include <sivid/paving/invert.hpp>
 
+#include <cstddef>
 #include <stdexcept>
+#include <vector>
 
 using namespace sivid;
 
@@ -20,7 +22,8 @@ TEST_CASE("an inquiry forgets its runs when less is left, and never has more aga
     CHECK_FALSE(asked.narrow({p.prior}));
     CHECK_FALSE(asked.narrowed());
     auto part = asked.left();
-    for (auto& side : part.parameters) side = interval(mid(side) - 1e-3, mid(side) + 1e-3);
+    for (std::size_t j = 0; j < p.prior.size(); ++j)
+        part.parameters[j] = interval(mid(p.prior[j]) - 1e-3, mid(p.prior[j]) + 1e-3);
     part.starts[0][0] = interval(0.49, 0.51);
     CHECK(asked.narrow(part));
     CHECK(asked.narrowed());

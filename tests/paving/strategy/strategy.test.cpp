@@ -25,8 +25,8 @@ public:
     [[nodiscard]] std::string obstacle(identification_problem const&) const override {
         return obstacle_;
     }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const&,
-                                       contraction_record& says) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const&,
+                                      contraction_record& says) const override {
         ++says.integrations;
         auto left = asked.problem().prior;
         left[0] = interval(left[0].lower(), left[0].lower() + share_() * width(left[0]));

@@ -21,7 +21,7 @@ class inquiry;
 
 /// Contains every parameter that explains the data, and for each experiment every start from which
 /// one does.
-struct remainder {
+struct leftover {
     box parameters;            ///< empty sides: proved, there is none
     std::vector<box> starts{}; ///< of each experiment; no entry: nothing new is known of starts
 };
@@ -98,8 +98,8 @@ public:
     /// @param limit  once it is false, what is proved until then is returned
     /// @param says   receives integrations and figures
     /// @guarantee  keeps every parameter, and every start, that explains the data
-    [[nodiscard]] virtual remainder operator()(inquiry& asked, work_limit const& limit,
-                                               contraction_record& says) const = 0;
+    [[nodiscard]] virtual leftover operator()(inquiry& asked, work_limit const& limit,
+                                              contraction_record& says) const = 0;
 
     /// Tests a part of a prior: outside, or what is left of it; for any thread.
     using part_test = std::function<assessment<>(box const&)>;

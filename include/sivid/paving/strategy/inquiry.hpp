@@ -44,8 +44,8 @@ public:
     [[nodiscard]] work_limit const& limit() const { return limit_; }
     [[nodiscard]] bool empty() const { return is_empty(problem_.prior); }
 
-    [[nodiscard]] remainder left() const {
-        remainder result{problem_.prior};
+    [[nodiscard]] leftover left() const {
+        leftover result{problem_.prior};
         for (auto const& e : problem_.experiments) result.starts.push_back(e.initial);
         return result;
     }
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] bool narrowed() const { return narrowed_; }
     /// Intersects what is left with what a contractor leaves. @returns whether that is less
     /// @throws std::invalid_argument  where it is of another problem
-    bool narrow(remainder const& found) {
+    bool narrow(leftover const& found) {
         auto const& own = problem_.experiments;
         bool const fits = found.parameters.size() == problem_.prior.size() &&
                           (found.starts.empty() || found.starts.size() == own.size());
@@ -119,7 +119,7 @@ public:
         return searched_ ? *searched_ : whole_;
     }
     /// For a search of the whole prior: what is not left is cut off before it is run, existence is
-    /// proved from the starts of the fit. Made from the same problem, options, fit and remainder
+    /// proved from the starts of the fit. Made from the same problem, options, fit and leftover
     /// it answers the same, on whatever machine.
     [[nodiscard]] feasibility_test& search_test() {
         if (narrowed_ && !search_test_) {

@@ -29,8 +29,8 @@ public:
     [[nodiscard]] std::string obstacle(identification_problem const& problem) const override {
         return problem.model.has_memory() ? "the model has delays" : "";
     }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const& limit,
-                                       contraction_record&) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record&) const override {
         return {contract_(asked.problem(), limit)};
     }
 

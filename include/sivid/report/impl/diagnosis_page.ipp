@@ -14,6 +14,7 @@
 #include <sivid/report/page/detail/diagnosis_figures.hpp>
 #include <sivid/report/page/detail/diagnosis_tables.hpp>
 #include <sivid/report/page/detail/identification_parameters.hpp>
+#include <sivid/report/words/detail/tried_words.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>
@@ -78,6 +79,9 @@ inline void add_constants(page& out, diagnosis_view const& v) {
     out.section("All constants of the model" +
                 (c != nullptr ? " with " + names_of(c->effects) : std::string{}));
     out.add(t);
+    if (v.journal.empty()) return;
+    out.subsection("What was tried to bound them");
+    out.add(tried_table(tried_words(v.journal)));
 }
 
 inline void add_remainder(page& out, diagnosis_view const& v) {

@@ -10,6 +10,7 @@
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/report/page/detail/identification_parameters.hpp>
+#include <sivid/report/words/detail/tried_words.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -156,14 +157,7 @@ inline void add_computation(page& out, identification_view const& v) {
     out.add(t);
     if (!v.tried.empty()) {
         out.subsection("What was tried");
-        table tried{.columns = {{"contractor", column_kind::symbol},
-                                {"what came of it"},
-                                {"why it was tried, or not", column_kind::note},
-                                {"effort", column_kind::note}},
-                    .caption = "Before the search, in this order; the shares are those of the "
-                               "volume that each was given."};
-        for (auto const& r : v.tried) tried.rows.push_back({r.by, r.outcome, r.why, r.effort});
-        out.add(tried);
+        out.add(tried_table(v.tried));
     }
     if (!v.comparison.empty()) {
         out.subsection("Against other ways to solve it");

@@ -14,6 +14,7 @@
 #include <sivid/report/fill/detail/scenario_report.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/report/words/detail/tried_words.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>
@@ -90,17 +91,6 @@ private:
         return assumption;
     }
 
-    [[nodiscard]] static tried_view tried(contraction_record const& r) {
-        tried_view words{r.by, std::string{to_string(r.how)}, r.why, {}};
-        if (!r.asked()) return words;
-        if (r.left < 1) words.outcome += ": at most " + at_most_percent(r.left) + " left";
-        words.effort = duration_text(r.seconds);
-        if (r.integrations > 0) words.effort += ", " + count_text(r.integrations) + " integrations";
-        for (auto const& [name, value] : r.figures)
-            if (value > 0) words.effort += ", " + name + " " + given_text(value);
-        return words;
-    }
-
     void add_result() {
         view_.dataset = options_.dataset;
         view_.model = about().name;
@@ -131,7 +121,7 @@ private:
         }
         view_.statistics = {found_.seconds, found_.boxes, found_.integrations,
                             std::string{to_string(found_.reason)}};
-        for (auto const& r : found_.journal) view_.tried.push_back(tried(r));
+        view_.tried = tried_words(found_.journal);
         view_.statistics.why = reach_words(problem_, found_);
         view_.version = std::string{"sivid "} + std::string{version};
         view_.date = options_.date;

@@ -15,8 +15,8 @@ using support::draws;
 namespace {
 
 /// By one thread.
-remainder left_by_shapes(identification_problem const& problem, work_limit const& limit,
-                         contraction_record& says) {
+leftover left_by_shapes(identification_problem const& problem, work_limit const& limit,
+                        contraction_record& says) {
     inquiry asked(problem, {}, {}, limit);
     return paving_detail::by_shapes()(asked, limit, says);
 }

@@ -105,8 +105,8 @@ private:
 class by_shapes : public by_windows {
 public:
     [[nodiscard]] std::string name() const override { return "shapes"; }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const& limit,
-                                       contraction_record& says) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record& says) const override {
         auto shaped = shaped_problem::of(asked.problem(), limit);
         if (!shaped) {
             says.why = "no constants stand within a function of one moving quantity";

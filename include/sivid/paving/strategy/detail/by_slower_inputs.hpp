@@ -32,8 +32,8 @@ public:
                    ? ""
                    : "the rates are no sum of inputs and states";
     }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const& limit,
-                                       contraction_record& says) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record& says) const override {
         double const period = 10 * sample_period(asked.problem());
         auto const slow = with_slower_inputs(asked.problem(), period);
         if (!slow) return asked.left();

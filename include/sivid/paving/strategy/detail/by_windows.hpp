@@ -60,7 +60,7 @@ protected:
                 .keep_going = limit,
                 .workers = asked.search().workers};
     }
-    [[nodiscard]] static remainder left_by(window_contraction found, contraction_record& says) {
+    [[nodiscard]] static leftover left_by(window_contraction found, contraction_record& says) {
         says.integrations += found.windows;
         says.figures = {{"windows", static_cast<double>(found.windows)},
                         {"longest window", found.longest}};
@@ -75,8 +75,8 @@ protected:
 class growing_window : public by_windows {
 public:
     [[nodiscard]] std::string name() const override { return "growing window"; }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const& limit,
-                                       contraction_record& says) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record& says) const override {
         auto how = options_for(asked, limit);
         how.chained = 1;
         return left_by(contract_by_windows(asked.problem(), how), says);
@@ -87,8 +87,8 @@ public:
 class windows_all_along : public by_windows {
 public:
     [[nodiscard]] std::string name() const override { return "windows all along"; }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const& limit,
-                                       contraction_record& says) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record& says) const override {
         return left_by(contract_by_windows(asked.problem(), options_for(asked, limit)), says);
     }
 };
@@ -99,8 +99,8 @@ public:
 class guided_windows : public by_windows {
 public:
     [[nodiscard]] std::string name() const override { return "guided windows"; }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const& limit,
-                                       contraction_record& says) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record& says) const override {
         auto const& posed = asked.problem();
         auto seen = posed;
         seen.model = with_states_seen(posed.model, "recorded state ");

@@ -33,8 +33,8 @@ public:
     [[nodiscard]] std::string obstacle(identification_problem const& problem) const override {
         return delays_in(problem);
     }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const& limit,
-                                       contraction_record&) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record&) const override {
         return {contract_by_relations(asked.problem(), {.keep_going = limit})};
     }
     /// Parts of what rests are excluded soon or not at all.
@@ -50,8 +50,8 @@ public:
     [[nodiscard]] std::string obstacle(identification_problem const& problem) const override {
         return delays_in(problem);
     }
-    [[nodiscard]] remainder operator()(inquiry& asked, work_limit const& limit,
-                                       contraction_record&) const override {
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record&) const override {
         auto const& problem = asked.problem();
         return {observer_contraction(problem, {.keep_going = limit})(problem.prior)};
     }
