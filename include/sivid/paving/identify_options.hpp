@@ -48,15 +48,6 @@ struct identify_options {
         invert_by = nullptr;
 };
 
-/// The options of the report's Algorithm 2, and of Algorithm 1 where no experiment has outliers:
-/// bisection alone, first box in, first out, to an accuracy that is a share of the prior.
-[[nodiscard]] inline identify_options by_bisection(identify_options options) {
-    options.test.contract = false;
-    options.search.order = search_order::first_in;
-    options.search.accuracy_of_hull = false;
-    return options;
-}
-
 } // namespace sivid
 
 #endif

@@ -25,7 +25,8 @@ inline promise reaches_less(inquiry& asked, double share) {
     double const reach = asked.reach();
     auto const percent = [](double x) { return std::to_string(static_cast<int>(100 * x)) + " %"; };
     return {reach < share, "runs over what is left reach " + percent(reach) +
-                               " of the measurements, to be less than " + percent(share)};
+                               " of the measurements, " + (reach < share ? "" : "not ") +
+                               "less than " + percent(share)};
 }
 inline bool equations_gained(inquiry& asked) {
     return asked.gained("state equations") || asked.gained("interval observers");
@@ -39,8 +40,9 @@ inline promise try_growing(inquiry& asked, double early) {
 }
 /// Half of the volume is what one halving of the search leaves.
 inline promise try_guided(inquiry& asked) {
+    if (!equations_gained(asked)) return {false, "equations have not gained"};
     auto const& last = asked.journal().back();
-    if (!equations_gained(asked) || !last.asked() || last.by != growing_window().name())
+    if (!last.asked() || last.by != growing_window().name())
         return {false, "no growing window was tried after equations"};
     return {!(last.left < 0.5),
             last.left < 0.5 ? "a growing window was of use" : "a growing window was of no use"};

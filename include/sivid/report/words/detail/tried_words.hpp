@@ -4,6 +4,7 @@
 
 #include <sivid/paving/strategy/contractor.hpp>
 #include <sivid/report/identification_view.hpp>
+#include <sivid/report/identification_words.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/table.hpp>
 
