@@ -57,14 +57,15 @@ inline promise grow(inquiry& asked, double early, std::size_t many) {
     return reaches_less(asked, early);
 }
 /// Uncertain starts are not narrowed by halving parameters.
-inline promise go_all_along(inquiry& asked, double early) {
+/// @param one  equations are asked only where runs end early
+inline promise go_all_along(inquiry& asked, double early, bool one) {
     if (asked.starts_known()) return {false, "starts are known"};
     auto const& journal = asked.journal();
     for (auto const& r : journal) {
         if (r.by == "slower inputs" && r.asked() && r.figure("windows") > 0)
             return {true, "windows with slower inputs were tried"};
     }
-    if (equations_gained(asked) && !asked.gained("slower inputs"))
+    if (one && equations_gained(asked) && !asked.gained("slower inputs"))
         return {true, "equations have gained, starts are uncertain"};
     return reaches_less(asked, early);
 }
@@ -106,7 +107,7 @@ SIVID_DECL strategy default_strategy(search_kind of) {
         {{growing},
          0.7 * pace,
          [=](inquiry& asked) { return grow(asked, one ? 0.5 : early, one ? 5 : 1000); }},
-        {{along}, 0.8 * pace, [=](inquiry& asked) { return go_all_along(asked, early); }},
+        {{along}, 0.8 * pace, [=](inquiry& asked) { return go_all_along(asked, early, one); }},
     }};
 }
 
