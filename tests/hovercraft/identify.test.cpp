@@ -37,9 +37,8 @@ struct campaign {
     [[nodiscard]] generated make(std::string const& scenario) const {
         return generate(model, find_scenarios(scenario, names), options);
     }
-    [[nodiscard]] sivid::identification run(generated const& g, algorithm how,
-                                            double seconds, std::size_t q,
-                                            std::size_t boxes = 100000) const {
+    [[nodiscard]] sivid::identification run(generated const& g, algorithm how, double seconds,
+                                            std::size_t q, std::size_t boxes = 100000) const {
         sivid::identify_options o;
         if (how != algorithm::contracting) o = by_bisection(o);
         o.search.seconds = seconds;
