@@ -108,7 +108,8 @@ int main(int count, char** arguments) {
                 options.search.batches = static_cast<std::size_t>(value());
                 batches = true;
             } else if (words[i] == "--report-1") {
-                options.algorithm = sivid::algorithm::report_1;
+                options = by_bisection(std::move(options));
+                outliers = 0;
             } else if (words[i] == "--threads") {
 #ifdef SIVID_HAS_TBB
                 workers = sivid::tbb_executor(static_cast<std::size_t>(value()));
@@ -121,7 +122,7 @@ int main(int count, char** arguments) {
                 auto const problem = sivid::problem_from_dataset(data, model, outliers);
                 std::printf("%s: %zu parameters, %zu experiments\n", data.id.c_str(),
                             problem.prior.size(), problem.experiments.size());
-                if (options.algorithm == sivid::algorithm::contracting) {
+                if (options.test.contract) {
                     auto hulls = options;
                     hulls.only_hulls = true;
                     compare(problem, "hulls", hulls, workers);

@@ -125,11 +125,11 @@ void show(machine const& m, identify_options const& options) {
     std::printf("%s: %s, %s, %.1f s, %zu boxes", m.how.what.c_str(),
                 std::string{to_string(found.verdict)}.c_str(),
                 std::string{to_string(found.reason)}.c_str(), found.seconds, found.boxes);
-    if (found.windows) {
-        auto const& w = *found.windows;
-        if (w.longest > 0) std::printf("; %zu windows, at most %.2f s", w.windows, w.longest);
-        if (w.input_period > 0) std::printf("; inputs as lines of %.3g s", w.input_period);
-        std::printf(", left %.3g of the volume in %.1f s", w.left, w.seconds);
+    for (auto const& r : found.journal) {
+        if (!r.asked()) continue;
+        std::printf("; %s %s, left %.3g of the volume in %.1f s", r.by.c_str(),
+                    std::string{to_string(r.how)}.c_str(), r.left, r.seconds);
+        for (auto const& [name, value] : r.figures) std::printf(", %s %.3g", name.c_str(), value);
     }
     std::printf("\n  hulls, %% of the prior:");
     show_sides(found.hull, problem.prior);
@@ -261,9 +261,14 @@ int main(int argc, char** argv) {
         if (word == "--seconds" && k + 1 < argc) {
             options.search.seconds = std::atof(argv[++k]);
         } else if (word == "--no-windows") {
-            options.shapes = options.equations = options.windows = false;
+            options.strategy = options.strategy.without("shapes")
+                                   .without("state equations")
+                                   .without("interval observers")
+                                   .without("growing window")
+                                   .without("guided windows")
+                                   .without("windows all along");
         } else if (word == "--as-recorded") {
-            options.slower_inputs = false;
+            options.strategy = options.strategy.without("slower inputs");
         } else if (word == "--equations") {
             equations = true;
         } else if (word == "--growth") {

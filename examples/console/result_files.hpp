@@ -7,10 +7,13 @@
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/result/certificates_csv.hpp>
 #include <sivid/io/text/printable_text.hpp>
+#include <sivid/report/identification_view.hpp>
 
 #include <filesystem>
+#include <iostream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace console {
 
@@ -21,6 +24,15 @@ inline std::string seen_from(std::filesystem::path const& here,
     auto const way = std::filesystem::relative(there, here, fault);
     auto const text = fault ? std::string{} : way.generic_string();
     return sivid::unprintable_in(text).empty() ? text : std::string{};
+}
+
+/// What was tried before a search, a line each.
+inline void print_tried(std::vector<sivid::report::tried_view> const& tried) {
+    for (auto const& r : tried) {
+        std::cout << "  " << r.by << ": " << r.outcome;
+        if (!r.effort.empty()) std::cout << " (" << r.effort << ")";
+        std::cout << "; " << r.why << "\n";
+    }
 }
 
 /// boxes.csv, products.csv and certificates.csv; result.json is for the caller to add last.

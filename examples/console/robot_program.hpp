@@ -47,7 +47,8 @@ inline void write_identified_model(sivid::identification_problem const& problem,
                                    std::vector<sivid::effect> const& effects,
                                    sivid::dataset const& data, std::filesystem::path const& folder,
                                    std::filesystem::path const& out, double seconds,
-                                   std::string const& command, progress_line& progress) {
+                                   std::string const& command, progress_line& progress,
+                                   bool verbose) {
     namespace report = sivid::report;
     if (problem.model.has_memory()) {
         std::cout << "  ranges of its parameters: not proved, the model has a delay, a play or a "
@@ -90,6 +91,7 @@ inline void write_identified_model(sivid::identification_problem const& problem,
         auto const note = report::exclusion_note(view, p);
         std::cout << (note.empty() ? "" : "  (" + note + ")") << "\n";
     }
+    if (verbose) print_tried(view.tried);
     sivid::file_set files(out);
     files.add("model.html", report::identification_page(view).str());
     files.add("model.json",
@@ -121,7 +123,8 @@ inline void write_identified_model(sivid::identification_problem const& problem,
 inline int diagnose_folder(sivid::recorded_model const& model,
                            std::vector<sivid::effect> const& catalogue,
                            std::filesystem::path const& folder, std::filesystem::path const& out,
-                           double budget, std::string const& command, bool quiet = false) {
+                           double budget, std::string const& command, bool quiet = false,
+                           bool verbose = false) {
     progress_line progress(quiet); // its clock is that of the budget
     auto const left = [&] { return std::max(0.0, budget - progress.elapsed()); };
     auto const data = sivid::read_dataset(folder, sivid::names_of(model.about));
@@ -153,7 +156,7 @@ inline int diagnose_folder(sivid::recorded_model const& model,
         auto const& answer = run.candidates[run.answer];
         auto const effects = sivid::holdout::effects_of(answer, run.catalogue);
         write_identified_model(answer.problem, effects, data, folder, out,
-                               std::min(left(), 0.25 * budget), command, progress);
+                               std::min(left(), 0.25 * budget), command, progress, verbose);
     }
     return exit_code_of(run.result);
 }
@@ -219,7 +222,7 @@ int robot_program(std::string const& name, std::string const& about, Model const
         if (first == "rank") return rank_folder(name, sivid::record_model(model), argc, argv);
         std::filesystem::path folder, out;
         double budget = 60;
-        bool quiet = false;
+        bool quiet = false, verbose = false;
         CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ..., control "
                              "OUT/model ..., design OUT/model ...; and: rank FOLDER ... (--help)"};
         app.add_option("folder", folder, "folder with dataset.json")->required();
@@ -229,13 +232,14 @@ int robot_program(std::string const& name, std::string const& about, Model const
             ->check(number_between(0.0, 1e9))
             ->capture_default_str();
         app.add_flag("--quiet", quiet, "no progress");
+        app.add_flag("--verbose", verbose, "what was tried to bound the parameters, and why");
         try {
             app.parse(argc, argv);
         } catch (CLI::ParseError const& e) {
             return app.exit(e) == 0 ? 0 : static_cast<int>(bad_input);
         }
         return diagnose_folder(sivid::record_model(model), catalogue, folder, out, budget,
-                               command_line(name, argc, argv), quiet);
+                               command_line(name, argc, argv), quiet, verbose);
     });
 }
 

@@ -46,6 +46,7 @@ struct identify_command {
     bool identifiability = false; ///< what the data can tell about the parameters at all
     std::size_t batches = 4; ///< sets of boxes learnt about at a time; the result depends on it
     bool quiet = false;
+    bool verbose = false;                  ///< say what was tried before the search
     std::string command_line;              ///< for the report's footer
     console::ranks const* ranks = nullptr; ///< that share the search
 };

@@ -40,10 +40,10 @@ namespace hovercraft_example {
 
 namespace {
 
-sivid::algorithm algorithm_of(std::string const& name) {
-    if (name == "report-1") return sivid::algorithm::report_1;
-    if (name == "report-2") return sivid::algorithm::report_2;
-    return sivid::algorithm::contracting;
+/// Algorithm 1 of the report allows no outlier.
+sivid::identification_problem without_outliers(sivid::identification_problem problem) {
+    for (auto& e : problem.experiments) e.outliers = 0;
+    return problem;
 }
 
 std::string words_of(std::string const& algorithm) {
@@ -53,7 +53,7 @@ std::string words_of(std::string const& algorithm) {
 }
 
 void print_summary(sivid::identification_problem const& problem, sivid::identification const& found,
-                   std::string const& id, std::filesystem::path const& out) {
+                   std::string const& id, std::filesystem::path const& out, bool verbose) {
     namespace report = sivid::report;
     auto const view = report::view_of(problem, found, nullptr, {.dataset = id});
     std::cout << id << ": " << to_string(found.verdict) << " (" << to_string(found.reason) << ")\n";
@@ -120,7 +120,7 @@ void print_summary(sivid::identification_problem const& problem, sivid::identifi
         }
         std::cout << "\n";
     }
-    if (!view.statistics.before.empty()) std::cout << "  " << view.statistics.before << "\n";
+    if (verbose) console::print_tried(view.tried);
     for (auto const& words : view.statistics.why) std::cout << "  " << words << "\n";
     std::cout << "  " << report::duration_text(found.seconds);
     if (found.boxes > 0) // else nobody counted
@@ -328,6 +328,7 @@ int run(identify_command const& c) {
     auto const data = sivid::read_dataset(c.dataset, sivid::names_of(model.about));
     std::optional<remembering_problem> remembering;
     auto problem = posed(data, model, c.effects, c.outliers, &remembering);
+    if (c.algorithm == "report-1") problem = without_outliers(std::move(problem));
     if (remembering && asks_for_more(c))
         throw bad_request(
             "effects that delay, a backlash or a rate limit, and lags that begin where "
@@ -362,12 +363,12 @@ int run(identify_command const& c) {
     sivid::work_limit limit(budget, wanted);
     console::progress_line progress(c.quiet || helps(c));
     sivid::identify_options options;
-    options.algorithm = algorithm_of(c.algorithm);
     apply(c.how, options.test);
     options.search.accuracy = c.accuracy.value_or(0.003);
     if (c.accuracy) options.search.sufficient_ratio = 1;
     if (c.boxes) options.search.boxes = *c.boxes;
     if (c.verdict_only) options.search.sufficient_ratio = 1e-300; // any inside box will do
+    if (c.algorithm != "contracting") options = by_bisection(std::move(options));
     options.search.seconds = c.compare ? 0.6 * budget : budget;
     options.search.keep_going = wanted;
     bool full = false; // as many boxes as can be written in what is left of the budget
@@ -439,13 +440,12 @@ int run(identify_command const& c) {
 
     std::optional<sivid::identification> baseline;
     if (c.compare && !console::interrupted()) {
-        auto other = options;
-        other.algorithm = sivid::algorithm::report_1;
+        auto other = by_bisection(options);
         other.search.seconds = limit.seconds();
         other.checkpoint = nullptr;
         other.resume = nullptr;
         progress.note("the same by Algorithm 1 of the report, for comparison");
-        baseline = sivid::identify(problem, other);
+        baseline = sivid::identify(without_outliers(problem), other);
         name_reason(*baseline);
         progress.finish();
     }
@@ -520,7 +520,7 @@ int run(identify_command const& c) {
         }
     }
     for (auto const& file : draw_channel(view, c)) std::cout << "picture: " << file << "\n";
-    print_summary(problem, found, title, c.out);
+    print_summary(problem, found, title, c.out, c.verbose);
     if (baseline) {
         std::cout << "  beside it, Algorithm 1 of the report: not excluded at most "
                   << report::at_most_percent(view.comparison[1].outer_volume.hi) << " after "

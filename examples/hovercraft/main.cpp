@@ -235,6 +235,7 @@ private:
         s->add_flag("--identifiability", c.identifiability,
                     "also say which parameters such data can tell at all");
         s->add_flag("--quiet", c.quiet, "no progress");
+        s->add_flag("--verbose", c.verbose, "what was tried before the search, and why");
         add_variants(*s, shared_);
         s->callback([this] {
             action_ = [this] {

@@ -179,6 +179,11 @@
 #include <sivid/paving/static_inversion.hpp>
 #include <sivid/paving/static_problem.hpp>
 #include <sivid/paving/static_words.hpp>
+#include <sivid/paving/strategy/contains_truth.hpp>
+#include <sivid/paving/strategy/contractor.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
+#include <sivid/paving/strategy/prior_contractor.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/decision/control_law.hpp>

@@ -88,7 +88,7 @@ TEST_CASE("planted breaches are found") {
                                                "#include <sivid/executor.hpp>\n");
         tree.write("include/sivid/executor.hpp", planted_tree::wrapped("sivid/executor.hpp", ""));
         tree.header("paving/proof.hpp", "#include <sivid/approximate/approximate_fit.hpp>\n");
-        tree.header("paving/impl/identify.ipp", "#include <sivid/approximate/fit/fit.hpp>\n");
+        tree.header("paving/impl/inflation.ipp", "#include <sivid/approximate/fit/fit.hpp>\n");
         tree.umbrella();
         CHECK(tree.findings() == "");
         tree.header("paving/proof.hpp", "#include <sivid/approximate/fit/fit.hpp>\n");

@@ -11,8 +11,10 @@
 #include "support/pendulum.hpp"
 #include "support/random.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 using namespace sivid;
@@ -66,7 +68,7 @@ identify_options options_of(bool reduced) {
     o.search.boxes = 150;
     o.search.seconds = 1e9;
     o.drawn_boxes = 60;
-    if (!reduced) o.algorithm = algorithm::report_2;
+    if (!reduced) o = by_bisection(o);
     return o;
 }
 
@@ -129,8 +131,8 @@ TEST_CASE("what windows left is resumed with the search") {
     options.search.boxes = 24;
     auto const digest = problem_digest(problem, options);
     auto const whole = identify(problem, options);
-    REQUIRE(whole.windows);
-    CHECK(whole.windows->left < 0.5);
+    REQUIRE_FALSE(whole.journal.empty());
+    CHECK(std::ranges::any_of(whole.journal, [](auto const& r) { return r.left < 0.5; }));
     std::shared_ptr<identification_state const> state;
     auto saving = options;
     saving.search.boxes = 4;
@@ -141,21 +143,27 @@ TEST_CASE("what windows left is resumed with the search") {
     };
     (void)identify(problem, saving);
     REQUIRE(state);
-    REQUIRE(state->windows);
+    REQUIRE(state->left);
+    REQUIRE(state->journal.size() == whole.journal.size());
     auto going_on = options;
     going_on.resume = state;
     auto const resumed = identify(problem, going_on);
     check_same(resumed, whole);
+    for (std::size_t k = 0; k < whole.journal.size(); ++k) {
+        auto const &a = resumed.journal[k], &b = whole.journal[k];
+        CHECK(std::tuple(a.by, a.why, a.how, a.left, a.figures) ==
+              std::tuple(b.by, b.why, b.how, b.left, b.figures));
+    }
     CHECK(contains(whole.hull, std::vector<double>{9, 0.3, 4}));
-    // what slower inputs did
     auto other = std::make_shared<identification_state>(*state);
-    other->windows->input_period = 0.01;
-    other->windows->integrations = 7;
-    auto const again = parse_checkpoint(checkpoint_text(*other, digest), "f", digest);
-    CHECK(again.windows->input_period == 0.01);
-    CHECK(again.windows->integrations == 7);
+    other->journal[0] = {"my own", "why\nnot", contraction_record::outcome::cut_short, 0.5, 7};
+    auto const again = parse_checkpoint(checkpoint_text(*other, digest), "f", digest).journal[0];
+    CHECK(again.by == "my own");
+    CHECK(again.why == "why not");
+    CHECK(again.how == contraction_record::outcome::cut_short);
+    CHECK(again.integrations == 7);
     // of another problem
-    other->windows->starts.clear();
+    other->left->starts.emplace_back();
     going_on.resume = other;
     CHECK_THROWS_AS(identify(problem, going_on), std::invalid_argument);
 }
@@ -210,7 +218,7 @@ TEST_CASE("a text with a right digest and wrong contents is refused, not believe
     auto const text = some_checkpoint(problem, options);
     auto const body = text.substr(text.find('\n', text.find("sha256")) + 1);
     auto const sealed = [](std::string const& contents) {
-        return "sivid-checkpoint-7\nsha256 " + sha256(contents) + "\n" + contents;
+        return "sivid-checkpoint-8\nsha256 " + sha256(contents) + "\n" + contents;
     };
     CHECK(sealed(body) == text);
     support::draws d(5202);
@@ -261,9 +269,9 @@ TEST_CASE("checkpoints of other problems, options and versions are refused, with
     auto body = text.substr(text.find('\n', text.find("sha256")) + 1);
     body.replace(0, body.find('\n'), "version 0.0.9");
     CHECK_THROWS_WITH(
-        parse_checkpoint("sivid-checkpoint-7\nsha256 " + sha256(body) + "\n" + body, "f", digest),
+        parse_checkpoint("sivid-checkpoint-8\nsha256 " + sha256(body) + "\n" + body, "f", digest),
         ContainsSubstring("'0.0.9'") && ContainsSubstring("begin anew"));
-    for (auto const* former : {"sivid-checkpoint-3\n", "sivid-checkpoint-6\n"}) {
+    for (auto const* former : {"sivid-checkpoint-3\n", "sivid-checkpoint-7\n"}) {
         CHECK_THROWS_WITH(parse_checkpoint(former, "f", digest),
                           ContainsSubstring("no checkpoint") &&
                               ContainsSubstring("another version") &&

@@ -87,7 +87,7 @@ TEST_CASE("a search finds the same with 1, 2 and 3 threads, box for box") {
         options.search.batches = 1 + d.below(4);
         options.drawn_boxes = 100;
         auto const kind = d.below(5);
-        if (kind == 0) options.algorithm = algorithm::report_2;
+        if (kind == 0) options = by_bisection(options);
         if (kind == 1) options.test.set = carried_set::doubleton;
         CAPTURE(round, model, kind, options.search.batches);
         auto const alone = identify(planted.problem, options);
@@ -132,7 +132,7 @@ TEST_CASE("a thread whose rounding was changed proves nothing") {
     identify_options options;
     options.search.boxes = 100;
     options.search.batches = 4;
-    options.algorithm = algorithm::report_2;
+    options = by_bisection(options);
     auto const pool = tbb_executor(2);
     // Whatever runs the tasks must leave the rounding mode alone; this one does not.
     options.search.workers = {2, [pool](std::size_t count, executor::task const& work) {

@@ -5,6 +5,7 @@
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
 #include "support/power_series.hpp"
+#include "support/models.hpp"
 #include "support/problems.hpp"
 #include "support/some_start.hpp"
 
@@ -23,9 +24,12 @@ using support::planted_problem;
 
 namespace {
 
+/// By contraction, or by Algorithm 2 of the report, which without outliers is Algorithm 1.
+enum class algorithm { contracting, bisection };
+
 identify_options quick(algorithm a, double accuracy, std::size_t boxes) {
     identify_options o;
-    o.algorithm = a;
+    if (a == algorithm::bisection) o = by_bisection(o);
     o.search.accuracy = accuracy;
     o.search.boxes = boxes;
     o.search.seconds = 20;
@@ -92,10 +96,8 @@ void sweep(std::uint64_t seed, int problems, std::size_t boxes) {
         how.noise = d.uniform(0.01, 0.08);
         auto const model = d.below(support::planted_models);
         auto const which = d.below(4);
-        auto const a = which == 0   ? algorithm::report_1
-                       : which == 1 ? algorithm::report_2
-                                    : algorithm::contracting;
-        if (a == algorithm::report_1) how.outliers = 0;
+        auto const a = which < 2 ? algorithm::bisection : algorithm::contracting;
+        if (which == 0) how.outliers = 0;
         auto const planted = support::plant(d, model, how);
         CAPTURE(seed, round, model, which, how.experiments, how.outliers, how.spread);
         auto options = quick(a, d.coin() ? 1.0 / 8 : 1.0 / 32, boxes);
@@ -137,7 +139,7 @@ TEST_CASE("impossible data are proved inconsistent by every algorithm") {
         auto& samples = planted.problem.experiments[0].measurements;
         for (std::size_t k = 0; k < 3; ++k) samples[k].bound = between(500, 501);
         planted.problem.experiments[0].outliers = 2;
-        for (auto const a : {algorithm::contracting, algorithm::report_1, algorithm::report_2}) {
+        for (auto const a : {algorithm::contracting, algorithm::bisection}) {
             auto const found = identify(planted.problem, quick(a, 1.0 / 64, 2000));
             CAPTURE(model, static_cast<int>(a));
             CHECK(found.verdict == verdict::inconsistent);
@@ -155,9 +157,11 @@ TEST_CASE("impossible data are proved inconsistent by every algorithm") {
 TEST_CASE("Algorithm 1 refutes data with gross outliers, Algorithm 2 tolerates them") {
     draws d(364);
     auto const planted = support::plant(d, 0, {.samples = 15, .outliers = 2, .noise = 0.03});
-    auto const strict = identify(planted.problem, quick(algorithm::report_1, 1.0 / 64, 5000));
+    auto exact = planted.problem;
+    for (auto& e : exact.experiments) e.outliers = 0;
+    auto const strict = identify(exact, quick(algorithm::bisection, 1.0 / 64, 5000));
     CHECK(strict.verdict == verdict::inconsistent);
-    auto const tolerant = identify(planted.problem, quick(algorithm::report_2, 1.0 / 64, 5000));
+    auto const tolerant = identify(planted.problem, quick(algorithm::bisection, 1.0 / 64, 5000));
     CHECK(tolerant.verdict == verdict::consistent);
     check_claims(planted, tolerant, d, 2);
 }
@@ -379,4 +383,33 @@ TEST_CASE("a state of other data is not resumed, nor one that has lost what expl
     forged = {};
     forged.search = saved->search;
     CHECK_THROWS_AS(resumed(with_rate(0.35), forged), std::invalid_argument);
+}
+
+TEST_CASE("parameters that are seen through their sum alone are searched in it") {
+    auto const m = support::model_of({1, 2, 0, 1e9},
+                                     [](auto const&, auto const& x, auto const& p, auto const&) {
+                                         return std::vector{(1 - x[0]) / (p[0] + p[1])};
+                                     });
+    experiment e{"S", {}, 0, {interval(0)}, {}, 0};
+    for (int k = 1; k <= 20; ++k) {
+        double const x = 1 - std::exp(-0.2 * k / 1.6);
+        e.measurements.push_back({0.2 * k, 0, between(x - 0.01, x + 0.01)});
+    }
+    identification_problem const p{
+        m, {support::all_constants(2), {}}, {between(0.5, 2), between(0.1, 1)}, {e}};
+    auto const found = identify(p, quick(algorithm::contracting, 1.0 / 64, 200));
+    CHECK(found.verdict == verdict::consistent);
+    REQUIRE(found.combinations.size() == 1);
+    CHECK(found.combinations[0].what.is_sum());
+    CHECK(contains(found.combinations[0].hull, 1.6));
+    CHECK(width(found.combinations[0].hull) < 0.1);
+    CHECK(contains(found.hull, std::vector<double>{1.2, 0.4}));
+    CHECK_FALSE(found.products);
+    for (double const dm : {0.15, 0.4, 0.9}) { // all of which have that sum
+        std::vector<double> const truth{1.6 - dm, dm};
+        CHECK(std::ranges::any_of(found.paving.boxes(), [&](paved_box const& b) {
+            return b.verdict != box_verdict::outside && contains(b.set, truth);
+        }));
+    }
+    CHECK(found.paving.outer_volume().upper() < 0.3);
 }

@@ -90,7 +90,7 @@ identify_options small_budget(draws& d) {
     o.drawn_boxes = 30 + d.below(200);
     o.test.cut = d.below(5) > 0;
     if (d.below(6) == 0) o.test.set = carried_set::doubleton;
-    if (d.below(12) == 0) o.algorithm = algorithm::report_2;
+    if (d.below(12) == 0) o = by_bisection(o);
     return o;
 }
 

@@ -111,16 +111,19 @@ TEST_CASE("slower inputs keep the truth") {
         identify_options options;
         options.search.seconds = 5; // all of them are spent: what is looked at comes first
         // Equations tell as much by themselves.
-        options.shapes = options.equations = options.windows = false;
+        std::erase_if(options.strategy.steps,
+                      [](auto const& s) { return s.by[0]->name() != "slower inputs"; });
         options.only_hulls = true;
         auto const found = identify(planted.problem, options);
         REQUIRE(found.verdict != verdict::inconsistent);
         REQUIRE(contains(found.hull, planted.truth));
-        if (!found.windows || !(found.windows->input_period > 0)) continue;
+        REQUIRE(found.journal.size() == 1);
+        auto const& said = found.journal[0];
+        if (!(said.figure("input period") > 0)) continue;
         ++used;
-        CHECK(std::fabs(found.windows->input_period - 0.01) < 1e-5);
-        CHECK(found.windows->left < 1);
-        CHECK(relative_volume(found.hull, planted.problem.prior).lower() <= found.windows->left);
+        CHECK(std::fabs(said.figure("input period") - 0.01) < 1e-5);
+        CHECK(said.left < 1);
+        CHECK(relative_volume(found.hull, planted.problem.prior).lower() <= said.left);
     }
     CHECK(2 * used >= seeds);
 }

@@ -260,9 +260,9 @@ TEST_CASE("a checkpoint whose boxes are labelled anew is refused - its digest ad
             bad.guess.reset(); // nor does a witness help the forger by its absence
             CHECK_THROWS_AS(resumed(bad), std::invalid_argument);
         }
-        if (saved->windows) { // which exclude all but the middle of the prior's lower half
+        if (saved->left) { // which exclude all but the middle of the prior's lower half
             auto bad = *saved;
-            auto& side = bad.windows->rest[0];
+            auto& side = bad.left->parameters[0];
             side = interval(side.lower(), side.lower());
             CHECK_THROWS_AS(resumed(bad), std::invalid_argument);
         }

@@ -12,12 +12,12 @@
 #include <sivid/cluster/worker_pool.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/detail/posed_search.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -46,19 +46,19 @@ struct search_setting {
     bool fitted = false;
     std::vector<double> fit;
     std::vector<std::vector<double>> fitted_starts;
-    bool windowed = false; ///< windows were contracted; what they left
+    bool narrowed = false; ///< contractors were asked before; what they left
     box rest;
     std::vector<box> starts;
 
     template <class Archive>
     void serialize(Archive& a, unsigned) {
-        a& outliers& fitted& fit& fitted_starts& windowed& rest& starts;
+        a& outliers& fitted& fit& fitted_starts& narrowed& rest& starts;
     }
 };
 
 [[nodiscard]] inline search_setting setting_of(identification_problem const& problem,
                                                std::optional<approximate_fit> const& fit,
-                                               std::optional<window_contraction> const& windows) {
+                                               std::optional<leftover> const& left) {
     search_setting s;
     for (auto const& e : problem.experiments) s.outliers.push_back(e.outliers);
     s.fitted = fit.has_value();
@@ -66,10 +66,10 @@ struct search_setting {
         s.fit = fit->parameters;
         s.fitted_starts = fit->starts;
     }
-    s.windowed = windows.has_value();
-    if (windows) {
-        s.rest = windows->rest;
-        s.starts = windows->starts;
+    s.narrowed = left.has_value();
+    if (left) {
+        s.rest = left->parameters;
+        s.starts = left->starts;
     }
     return s;
 }
@@ -96,39 +96,40 @@ public:
         auto const setting = in.take<search_setting>();
         for (std::size_t e = 0; e < problem_.experiments.size(); ++e)
             problem_.experiments[e].outliers = setting.outliers.at(e);
-        working_ = paving_detail::as_searched(problem_, options_.algorithm);
-        search_.emplace(working_, dependence_of(working_), options_);
+        auto const map =
+            options_.test.contract ? coordinates_of(problem_) : std::optional<reduction>{};
+        asked_.emplace(map ? map->problem() : problem_, options_.test, options_.search,
+                       work_limit(0.0));
         std::optional<approximate_fit> fit;
         if (setting.fitted) {
             fit.emplace();
             fit->parameters = setting.fit;
             fit->starts = setting.fitted_starts;
         }
-        std::optional<window_contraction> windows;
-        if (setting.windowed) {
-            windows.emplace();
-            windows->rest = setting.rest;
-            windows->starts = setting.starts;
+        auto const& prior = asked_->whole().prior;
+        if (setting.narrowed) asked_->narrow({setting.rest, setting.starts});
+        if (fit) {
+            auto const point = point_box(fit->parameters);
+            asked_->propose(*fit, map ? map->forward(point) : point);
         }
-        search_->prepare(fit, windows);
-        boxes_.emplace(search_->test(), search_->posed().prior);
+        boxes_.emplace(asked_->search_test(), prior);
         return who;
     }
     [[nodiscard]] std::string answer(std::string_view request) { return (*boxes_)(request); }
 
 private:
-    identification_problem problem_, working_;
+    identification_problem problem_;
     identify_options options_;
     std::string also_;
-    std::optional<paving_detail::posed_search> search_;
+    std::optional<inquiry> asked_;
     std::optional<box_server<feasibility_test>> boxes_;
 };
 
 } // namespace identify_detail
 
 /// `sivid::identify` with the box search shared with others, who call `help_identify` for the same
-/// problem and options; this process works, too, in a thread of its own. The fit, windows and what
-/// completes the result are done here alone.
+/// problem and options; this process works, too, in a thread of its own. What comes before the
+/// search and what completes the result are done here alone.
 /// @guarantee  what `sivid::identify` returns, bit for bit, whoever helps and however many; budgets
 ///             and `keep_going` end the work of all. A resumed search may have others than before
 /// @param others  are referred to
@@ -146,11 +147,11 @@ private:
     options.invert_by = [&](feasibility_test& test, box const& prior,
                             inversion_options const& search,
                             std::optional<approximate_fit> const& fit,
-                            std::optional<window_contraction> const& windows) {
-        if (windows && windows->empty()) return sivid::invert(test, prior, search);
+                            std::optional<leftover> const& left) {
+        if (left && is_empty(left->parameters)) return sivid::invert(test, prior, search);
         box_server<feasibility_test> boxes(test, prior);
         working_coordinator all(
-            others, packed(mine, identify_detail::setting_of(problem, fit, windows)), mine,
+            others, packed(mine, identify_detail::setting_of(problem, fit, left)), mine,
             [&boxes](worker&, std::string_view request) { return boxes(request); });
         idle.work_has_come();
         auto found = cluster::invert(all.helpers(), test, prior, search);

@@ -7,6 +7,7 @@
 #include <sivid/model/prior_end.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/paving/run/run_reach.hpp>
+#include <sivid/paving/strategy/contractor.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -281,6 +282,7 @@ struct diagnosis {
     std::vector<named_estimate> scenario_inflation, channel_inflation;
     std::vector<confined_gap> confined; ///< parts of the data that alone stand against the model
     std::vector<run_reach> reach;       ///< where the gap is undecided: what holds runs back
+    contraction_journal journal{};      ///< what was tried to bound the answer's parameters
     std::vector<broken_relation_report> relations;
     std::vector<suspected_place> where; ///< most important first
     std::vector<cause> causes;          ///< best first

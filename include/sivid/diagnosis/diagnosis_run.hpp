@@ -17,6 +17,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/relation/relation_finding.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -42,7 +43,9 @@ struct diagnosis_options {
     double discharge_share = 0.15;     ///< whether a sensor, not its equation, may be wrong
     double places_share = 0.25; ///< where the model, and then where the closest candidate departs
     double terms_share = 0.2;   ///< what no effect of the catalogue is
-    step_effort hulls{4000, 0.45};   ///< the hulls of the answer's parameters, last
+    step_effort hulls{4000, 0.45}; ///< the hulls of the answer's parameters, last
+    /// What is tried on each part before it is searched for these hulls, and while.
+    sivid::strategy strategy = default_strategy(search_kind::parts);
     std::size_t remaining_sets = 30; ///< of places that the closest candidate may have wrong
     screening_options screening{};   ///< but for its time: it gets all that the others leave
     choice_options choice{};

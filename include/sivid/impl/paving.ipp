@@ -13,5 +13,7 @@
 #include <sivid/paving/observer/impl/observer_contraction.ipp>
 #include <sivid/paving/relation/impl/relation_contraction.ipp>
 #include <sivid/paving/run/impl/run_reach.ipp>
+#include <sivid/paving/strategy/impl/default_strategy.ipp>
+#include <sivid/paving/strategy/impl/strategy.ipp>
 
 #endif

@@ -21,7 +21,7 @@ namespace sivid {
 
 namespace io_detail {
 
-inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-7";
+inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-8";
 
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
@@ -33,6 +33,14 @@ struct size_of {
 };
 template <class List>
 size_of(List&) -> size_of<List>;
+
+/// Text up to the end of a line: a line break in it becomes a space.
+template <class Text>
+struct whole_line {
+    Text& text;
+};
+template <class Text>
+whole_line(Text&) -> whole_line<Text>;
 
 /// Writes lines of words; doubles as exact hexadecimal text.
 class checkpoint_lines {
@@ -81,6 +89,12 @@ private:
     void put(size_of<List> const& of) {
         put(of.list.size());
     }
+    template <class Text>
+    void put(whole_line<Text> const& line) {
+        text_ += ' ';
+        for (char const c : line.text) text_ += c == '\n' ? ' ' : c;
+    }
+    void put(contraction_record::outcome how) { put(static_cast<std::size_t>(how)); }
 
     std::string text_;
 };
@@ -100,16 +114,21 @@ void list_state(Lines& line, State& state) {
     } else {
         line.rest();
     }
-    if (line.begin(state.windows, "windows", "no_windows")) {
-        auto& w = *state.windows;
-        bool empty = w.empty();
-        line.rest(size_of{w.starts}, empty, w.rounds, w.windows, w.longest, w.seconds);
-        line("slower_inputs", w.input_period, w.integrations);
-        line("without_runs", w.by_equations, w.by_observers);
-        for (auto& x : w.starts) line("from", x);
-        if (!empty) line("rest", w.rest);
+    if (line.begin(state.left, "left", "all_left")) {
+        auto& left = *state.left;
+        bool empty = is_empty(left.parameters);
+        line.rest(size_of{left.starts}, empty);
+        for (auto& x : left.starts) line("from", x);
+        if (!empty) line("parameters", left.parameters);
     } else {
         line.rest();
+    }
+    line("journal", size_of{state.journal});
+    for (auto& r : state.journal) {
+        line("by", whole_line{r.by});
+        line("why", whole_line{r.why});
+        line("came_of_it", r.how, r.left, r.integrations, r.seconds, size_of{r.figures});
+        for (auto& [name, value] : r.figures) line("figure", value, whole_line{name});
     }
     auto& s = state.search;
     line("prior", s.prior);

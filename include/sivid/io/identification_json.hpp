@@ -5,6 +5,7 @@
 #include <sivid/compiled.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/result/detail/identifiability_json.hpp>
+#include <sivid/io/result/journal_json.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/io/result/reach_json.hpp>
 #include <sivid/io/text/json_writer.hpp>

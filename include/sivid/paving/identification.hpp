@@ -10,6 +10,7 @@
 #include <sivid/paving/run/run_reach.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/search/exclusion_proof.hpp>
+#include <sivid/paving/strategy/contractor.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
@@ -56,26 +57,13 @@ struct search_effort {
     std::optional<double> sufficient_ratio{}, hull_gain{};
 };
 
-/// How windows of the records, slower inputs, state equations or interval observers contracted the
-/// prior before it was searched.
-struct window_effort {
-    std::size_t windows = 0; ///< that were carried, all together
-    double longest = 0;      ///< of them [time]
-    double seconds = 0;
-    double left = 1;         ///< at most so much of the prior's volume
-    double input_period = 0; ///< of `with_slower_inputs` [time]; 0: inputs as they are
-    /// The shares of the volume that the state equations between samples, and interval observers,
-    /// have each left of what they were given; 1: nothing was cut off.
-    double by_equations = 1, by_observers = 1;
-};
-
 /// What was found about a problem; everything in it is proved, `guess` excepted.
 struct identification {
     explicit identification(box const& prior) : paving(prior), hull(prior) {}
 
     sivid::verdict verdict = sivid::verdict::undecided;
     stop_reason reason = stop_reason::decided;
-    std::optional<window_effort> windows; ///< nothing where none were needed
+    contraction_journal journal{}; ///< what was tried before the search, and why
     /// Over what is left, where little was excluded and the search has not decided all of it.
     std::vector<run_reach> reach;
     /// With them: what the equations divide by that is, or may be, zero somewhere.

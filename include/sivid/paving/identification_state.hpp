@@ -3,8 +3,8 @@
 #define SIVID_PAVING_IDENTIFICATION_STATE_HPP
 
 #include <sivid/approximate/approximate_fit.hpp>
-#include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/search/search_state.hpp>
+#include <sivid/paving/strategy/contractor.hpp>
 
 #include <optional>
 #include <string>
@@ -15,8 +15,9 @@ namespace sivid {
 /// it: the fit is verified again.
 struct identification_state {
     std::optional<approximate_fit> guess;
-    double seconds = 0; ///< spent before the search
-    std::optional<window_contraction> windows;
+    double seconds = 0;           ///< spent before the search
+    std::optional<leftover> left; ///< before the search; nothing: all of it
+    contraction_journal journal{};
     search_state search;
     std::string problem = {}; ///< a digest of what is searched: nothing else goes on from here
 };

@@ -27,6 +27,15 @@ namespace sivid {
 [[nodiscard]] SIVID_DECL identification identify(identification_problem const& problem,
                                                  identify_options options = {});
 
+/// The options of the report's Algorithm 2, and of Algorithm 1 where no experiment has outliers:
+/// bisection alone, first box in, first out, to an accuracy that is a share of the prior.
+[[nodiscard]] inline identify_options by_bisection(identify_options options) {
+    options.test.contract = false;
+    options.search.order = search_order::first_in;
+    options.search.accuracy_of_hull = false;
+    return options;
+}
+
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

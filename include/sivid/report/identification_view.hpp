@@ -60,8 +60,15 @@ struct statistics_view {
     std::uint64_t boxes = 0;
     std::uint64_t integrations = 0;
     std::string stop_reason{};
-    std::string before{};           ///< what contracted the prior before the search, or nothing
     std::vector<std::string> why{}; ///< why little is excluded, and what to change
+};
+
+/// What was tried before the search, in words.
+struct tried_view {
+    std::string by{};
+    std::string outcome{}; ///< "gained: 41 % left"
+    std::string why{};     ///< it was tried, or not
+    std::string effort{};  ///< empty: it was not tried
 };
 
 /// One way to solve the same problem, for comparison.
@@ -98,6 +105,7 @@ struct identification_view {
     std::vector<std::string> warnings{};
     std::vector<outlier_view> outliers{};
     statistics_view statistics{};
+    std::vector<tried_view> tried{};
     std::vector<scenario_view> scenarios{};
     std::string tube_meaning{};      ///< what the drawn enclosures enclose
     std::string reference_meaning{}; ///< what the reference line is

@@ -71,7 +71,9 @@ TEST_CASE("whatever decides a search changes the digest, budgets and threads do 
         CHECK(seen.insert(problem_digest(problem, other)).second);
     };
     using o = identify_options;
-    matters([](o& x) { x.algorithm = algorithm::report_2; });
+    matters([](o& x) { x.test.contract = false; });
+    matters([](o& x) { x.strategy = x.strategy.without("shapes"); });
+    matters([](o& x) { x.strategy.steps[0].share = 0.5; });
     matters([](o& x) { x.only_hulls = true; });
     matters([](o& x) { x.drawn_boxes = 10; });
     matters([](o& x) { x.search.accuracy = 0.5; });

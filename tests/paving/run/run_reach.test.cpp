@@ -112,7 +112,7 @@ TEST_CASE("identifications that leave much say how far runs are carried and othe
     identify_options options;
     options.search.boxes = 4;
     options.search.seconds = 5;
-    options.shapes = options.equations = options.windows = false;
+    options.strategy = {};
     auto p = support::swinging(6, 0.95, 7);
     p.experiments[0].initial = {interval(-1.5, 1.5), interval(-6.0, 6.0)};
     auto const found = identify(p, options);

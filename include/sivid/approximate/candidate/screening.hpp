@@ -147,7 +147,7 @@ public:
             return find(a)->figures.inflation < find(b)->figures.inflation;
         });
         singles.resize(std::min(most_joined, singles.size()));
-        try_all(sivid::joined(singles, numbers));
+        try_all(sets_joined(singles, numbers));
         polish();
         return explained(2);
     }
@@ -247,7 +247,7 @@ private:
     [[nodiscard]] effect_sets joined(effect_sets const& sets) const {
         effect_set planned(planned_);
         std::iota(planned.begin(), planned.end(), std::size_t{0});
-        return sivid::joined(sets, planned, impossible_);
+        return sets_joined(sets, planned, impossible_);
     }
     [[nodiscard]] tried_candidates::count count(effect_sets const& planned) const {
         auto const known = [this](auto const& set) { return find(set) != nullptr; };

@@ -3,6 +3,7 @@
 #define SIVID_DIAGNOSIS_CANDIDATE_EFFECT_HULL_OPTIONS_HPP
 
 #include <sivid/paving/judge/feasibility_test_options.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -18,6 +19,9 @@ struct effect_hull_options {
     double accuracy = 1.0 / 128;
     std::function<bool()> keep_going{}; ///< false ends it with what is proved until then
     feasibility_test_options test{};
+    /// What is tried on each part before it is searched, and while.
+    sivid::strategy strategy = default_strategy(search_kind::parts);
+    std::function<void(contraction_journal const&)> tried{}; ///< told of each part; may be empty
 };
 
 } // namespace sivid

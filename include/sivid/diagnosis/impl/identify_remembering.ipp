@@ -48,6 +48,7 @@ SIVID_DECL identification identify_remembering(identification_problem const& bas
         }
     }
     options.seconds = limit.seconds();
+    options.tried = [&result](contraction_journal const& more) { add(result.journal, more); };
     auto found = effect_hulls(base, effects, options);
     bool const none = found.parameters.size() == 0 || is_empty(found.parameters);
     if (none) {

@@ -134,6 +134,19 @@ private:
         of.list.resize(size);
     }
 
+    template <class Text>
+    void take(whole_line<Text> const& line) {
+        line.text = std::exchange(line_text_, {});
+    }
+    void take(contraction_record::outcome& how) {
+        std::size_t number = 0;
+        take(number);
+        how = static_cast<contraction_record::outcome>(number);
+        if (to_string(how) == to_string(contraction_record::outcome::cut_short) &&
+            how != contraction_record::outcome::cut_short)
+            damaged();
+    }
+
     void next() {
         auto const end = rest_.find('\n');
         if (end == std::string_view::npos) {
@@ -173,10 +186,10 @@ SIVID_DECL identification_state parse_checkpoint(std::string_view text, std::str
     list_state(in, state);
     in.end();
     auto const sides = state.search.prior.size();
-    if (state.windows && state.windows->rest.size() == 0) { // nothing was left
-        state.windows->rest = empty_box(sides);
+    if (state.left && state.left->parameters.size() == 0) { // nothing was left
+        state.left->parameters = empty_box(sides);
     }
-    if (state.windows && state.windows->rest.size() != sides) in.damaged();
+    if (state.left && state.left->parameters.size() != sides) in.damaged();
     try {
         state.search.require_valid();
     } catch (std::invalid_argument const&) {

@@ -4,6 +4,7 @@
 
 #include <sivid/io/diagnosis_json.hpp>
 
+#include <sivid/io/result/journal_json.hpp>
 #include <sivid/io/result/reach_json.hpp>
 #include <sivid/io/text/json_writer.hpp>
 
@@ -184,6 +185,7 @@ private:
         json_.end_object();
         constants();
         combinations();
+        write_journal(json_, d_->journal);
         json_.members("formulas", d_->change.lines).named("symbols", d_->change.symbols);
         json_.members("verified", d_->constants_verified);
         json_.list("at_ends", d_->at_ends, [&](constant_at_end const& a) {

@@ -51,15 +51,7 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
     auto const grounds = grounds_for(found.witness.has_value(), inside, found.paving.has_outer());
     json.members("verdict", to_string(found.verdict), "verdict_rests_on", to_string(grounds));
     json.members("stop_reason", to_string(found.reason));
-    if (found.windows) { // what contracted the prior before the search
-        auto const& w = *found.windows;
-        json.key("windows").begin_object(one_line).members("carried", w.windows);
-        json.members("longest", w.longest, "seconds", w.seconds, "left", w.left);
-        if (w.input_period > 0) json.members("input_period", w.input_period);
-        if (w.by_equations < 1) json.members("by_equations", w.by_equations);
-        if (w.by_observers < 1) json.members("by_observers", w.by_observers);
-        json.end_object();
-    }
+    write_journal(json, found.journal);
     write_reach(json, found.reach);
     write_divisors(json, found.divisors);
     if (found.effort) { // what the reason follows from

@@ -84,8 +84,9 @@ inline void describe(canonical_text& t, run_options const& o) {
 /// Everything that decides what a search does; budgets and threads do not.
 inline void describe(canonical_text& t, identify_options const& o) {
     auto const& s = o.search;
-    t("options", o.algorithm, o.only_hulls, o.shapes, o.equations, o.windows, o.slower_inputs,
-      o.drawn_boxes);
+    t("options", o.only_hulls, o.drawn_boxes);
+    for (auto const& step : o.strategy.steps)
+        for (auto const& by : step.by) t("contractor", by->name(), step.share, step.ends);
     t("search", s.accuracy, s.accuracy_of_hull, s.hull_gain, s.small_hull, s.sufficient_ratio,
       s.order, s.keep_outside, s.batches);
     t("test", o.test.contract, o.test.cut, o.test.sharp_enough, o.test.witness_steps);

@@ -9,7 +9,6 @@
 #include <sivid/paving/run_options.hpp>
 #include <sivid/space/box.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -50,7 +49,7 @@ struct window_options {
     bool keep_responses = false; ///< of the windows of the last program
 };
 
-/// What windows, slower inputs, equations or observers leave of the prior.
+/// What windows leave of the prior.
 struct window_contraction {
     box rest;                ///< contains every feasible parameter; empty: proved, there is none
     std::vector<box> starts; ///< of each experiment, contain every start that explains it
@@ -58,32 +57,11 @@ struct window_contraction {
     std::size_t windows = 0; ///< that were carried, all together
     double longest = 0;      ///< of them [time]
     double seconds = 0;
-    /// What contracted saw the inputs as lines with knots so far apart (`with_slower_inputs`), and
-    /// searched the prior as well; 0: it saw them as they are. [time]
-    double input_period = 0;
-    /// The shares of the volume that the state equations between samples, and interval observers,
-    /// have each left of what they were given; 1: nothing was cut off.
-    double by_equations = 1, by_observers = 1;
-    std::size_t integrations = 0; ///< beside those of windows
-    response_list responses{};    ///< where they are kept
-    std::vector<box> from{};      ///< the states in which their windows begin
+    response_list responses{}; ///< where they are kept
+    std::vector<box> from{};   ///< the states in which their windows begin
 
     [[nodiscard]] bool empty() const { return is_empty(rest); }
 };
-
-/// One contraction after the other.
-[[nodiscard]] inline window_contraction joined(window_contraction const& first,
-                                               window_contraction then) {
-    then.rounds += first.rounds;
-    then.windows += first.windows;
-    then.longest = std::max(first.longest, then.longest);
-    then.seconds += first.seconds;
-    then.integrations += first.integrations;
-    then.input_period = std::max(first.input_period, then.input_period);
-    then.by_equations *= first.by_equations;
-    then.by_observers *= first.by_observers;
-    return then;
-}
 
 /// Contracts a prior over which no trajectory can be carried along the whole record.
 ///   A record becomes windows as long as the prior carries: the first begins where the experiment

@@ -4,7 +4,9 @@
 
 #include <sivid/model/problem.hpp>
 #include <sivid/model/structure/find_combinations.hpp>
+#include <sivid/paving/products/reduction.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace sivid {
@@ -32,6 +34,12 @@ template <class Find>
 /// Sums through which alone the equations of all experiments see their terms.
 [[nodiscard]] inline std::vector<combination> sums_in(identification_problem const& problem) {
     return paving_detail::about_models(problem, find_sums);
+}
+/// The coordinates in which a problem is searched: products and sums of parameters, where equations
+/// see parameters through them alone; nothing where they are the parameters.
+[[nodiscard]] inline std::optional<reduction>
+coordinates_of(identification_problem const& problem) {
+    return reduction::find(problem, dependence_of(problem), sums_in(problem));
 }
 
 } // namespace sivid

@@ -127,6 +127,12 @@ public:
         });
     }
 
+    /// Whether a side is a sum.
+    [[nodiscard]] bool has_sums() const {
+        return std::any_of(sides_.begin(), sides_.end(),
+                           [](side const& s) { return s.product && s.product->is_sum(); });
+    }
+
     /// A box of the reduced problem that contains the image of a box of the original one.
     /// @param known  ranges of products in it, as of `products_over`
     [[nodiscard]] box forward(box const& p, std::vector<combination_hull> const& known = {}) const {

@@ -6,6 +6,7 @@
 
 #include <sivid/number/text/joined.hpp>
 #include <sivid/report/detail/diagnosis_tables.hpp>
+#include <sivid/report/detail/tried_words.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
@@ -149,6 +150,10 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     out.section("All constants of the model" +
                 (c != nullptr ? " with " + names_of(c->effects) : std::string{}));
     out.add(constants_table(v));
+    if (!v.journal.empty()) {
+        out.subsection("What was tried to bound them");
+        out.add(tried_table(tried_words(v.journal)));
+    }
     detail::add_remainder(out, v);
     detail::add_comparison(out, v);
     add_advice(out, v);

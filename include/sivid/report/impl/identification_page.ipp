@@ -4,6 +4,7 @@
 
 #include <sivid/report/identification_page.hpp>
 
+#include <sivid/report/detail/tried_words.hpp>
 #include <sivid/report/draw/charts.hpp>
 #include <sivid/report/identification_words.hpp>
 
@@ -232,7 +233,6 @@ inline void add_computation(page& out, identification_view const& v) {
     out.prose("The run took " + duration_text(v.statistics.seconds) + " for " +
               count_text(v.statistics.boxes) + " boxes and " +
               count_text(v.statistics.integrations) + " validated integrations. " +
-              (v.statistics.before.empty() ? "" : sentence(v.statistics.before) + " ") +
               (v.statistics.stop_reason.empty()
                    ? ""
                    : "Why it stopped: " + sentence(v.statistics.stop_reason)));
@@ -245,6 +245,10 @@ inline void add_computation(page& out, identification_view const& v) {
                           percent_interval(v.volume_outer)});
     }
     out.add(t);
+    if (!v.tried.empty()) {
+        out.subsection("What was tried");
+        out.add(tried_table(v.tried));
+    }
     out.subsection("Against other ways to solve it");
     table c{.columns =
                 columns("*method|#time|#boxes|#integrations|#inner volume|#outer volume|~remark"),

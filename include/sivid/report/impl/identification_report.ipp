@@ -9,6 +9,7 @@
 #include <sivid/number/text/joined.hpp>
 #include <sivid/paving/excluded_between.hpp>
 #include <sivid/paving/verdict.hpp>
+#include <sivid/report/detail/tried_words.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/version.hpp>
 
@@ -310,20 +311,6 @@ private:
         return assumption;
     }
 
-    /// What contracted the prior without runs, and how much each cut off.
-    [[nodiscard]] static std::string without_runs(window_effort const& w, bool beside) {
-        std::vector<std::string> parts;
-        auto const add = [&](std::string const& who, double left) {
-            if (left < 1)
-                parts.push_back(who + " (to " + at_most_percent(left) +
-                                " of what they were given)");
-        };
-        add("the state equations between samples", w.by_equations);
-        add("interval observers", w.by_observers);
-        if (parts.empty()) return beside ? "" : "shapes in place of constants";
-        return (beside ? " with " : "") + enumeration(parts);
-    }
-
     void add_result() {
         view_.dataset = options_.dataset;
         view_.model = about().name;
@@ -352,34 +339,9 @@ private:
             view_.proved.push_back(
                 fewest_outliers_sentence(found_.fewest->total.least, found_.fewest->total.most));
         }
-        view_.statistics = {found_.seconds,
-                            found_.boxes,
-                            found_.integrations,
-                            std::string{to_string(found_.reason)},
-                            {}};
-        if (found_.windows) {
-            auto const& w = *found_.windows;
-            std::string const what =
-                w.longest > 0 ? count_text(w.windows) + " windows of the records, the longest " +
-                                    given_text(w.longest) + " " + about().time_unit
-                              : "";
-            std::string const lines =
-                w.input_period > 0
-                    ? "runs that see the inputs as lines of " + given_text(w.input_period) + " " +
-                          about().time_unit + ", and a bound of what these leave"
-                    : "";
-            bool const runs = !what.empty() || !lines.empty();
-            view_.statistics.before =
-                !runs && !(w.left < 1)
-                    ? "no window of the records can be carried from starts so wide: state them "
-                      "more narrowly, or give samples nearer to them"
-                    : (runs ? what + (what.empty() || lines.empty() ? "" : ", and ") + lines + ","
-                            : "") +
-                          without_runs(w, runs) +
-                          " contracted the prior before the search: they leave " +
-                          at_most_percent(w.left) + " of its volume (" + duration_text(w.seconds) +
-                          ")";
-        }
+        view_.statistics = {found_.seconds, found_.boxes, found_.integrations,
+                            std::string{to_string(found_.reason)}};
+        view_.tried = tried_words(found_.journal);
         view_.statistics.why = reach_words(problem_, found_);
         view_.version = "sivid " + std::string{version};
         view_.date = options_.date;

@@ -44,8 +44,8 @@ private:
 };
 
 /// Each of the sets with every one of the effects that it lacks.
-[[nodiscard]] inline effect_sets joined(effect_sets const& sets, effect_set const& effects,
-                                        impossible_sets const& but = {}) {
+[[nodiscard]] inline effect_sets sets_joined(effect_sets const& sets, effect_set const& effects,
+                                             impossible_sets const& but = {}) {
     effect_sets result;
     for (auto const& set : sets) {
         for (auto const e : effects) {

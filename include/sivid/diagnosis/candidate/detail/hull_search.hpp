@@ -7,11 +7,12 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/model/structure/combination.hpp>
 #include <sivid/paving/invert.hpp>
-#include <sivid/paving/judge/detail/equation_aided_test.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
-#include <sivid/paving/relation/relation_contraction.hpp>
+#include <sivid/paving/strategy/detail/aided_test.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>
 
@@ -41,28 +42,23 @@ public:
                std::optional<double> time = std::nullopt,
                std::vector<combination_hull> const& known = {}) const {
         if (problem.prior.size() == 0) return explained_hull{problem.prior};
-        auto const map = reduction::find(problem, dependence_of(problem), sums_in(problem));
+        auto const map = coordinates_of(problem);
         auto posed = map ? map->problem() : problem;
         if (map) posed.prior = map->forward(problem.prior, known);
         if (is_empty(posed.prior)) return std::nullopt;
-        feasibility_test test(posed, limited(options_->test, limit_));
         inversion_options search{
             .accuracy_of_hull = true, .hull_gain = 0.02, .small_hull = 1e-3, .keep_outside = false};
         search.seconds = time.value_or(share) * limit_.seconds();
         search.boxes = static_cast<std::size_t>(share * static_cast<double>(options_->boxes));
         search.keep_going = limit_;
-        auto prior = posed.prior;
-        relation_contraction_options equations{.keep_going =
-                                                   work_limit(search.seconds / 4, limit_)};
-        if (!posed.model.has_memory() && limit_() && test.reached(prior) < 1)
-            prior = contract_without_runs(posed, equations).rest;
-        if (is_empty(prior)) return std::nullopt;
-        equations.keep_going = work_limit(search.seconds, limit_);
-        // Parts of what rests are excluded soon or not at all.
-        equations.rounds = 1;
-        equations.cells_per_gap = 2;
-        equation_aided_test aided(test, posed, equations);
-        auto const paving = invert(aided, prior, search).paving;
+        work_limit const own(search.seconds, limit_);
+        inquiry asked(std::move(posed), limited(options_->test, limit_), search, own);
+        contract(options_->strategy, asked);
+        if (options_->tried) options_->tried(asked.journal());
+        if (asked.empty()) return std::nullopt;
+        search.seconds = own.seconds();
+        paving_detail::aided_test aided(asked.test(), asked.problem(), options_->strategy, own);
+        auto const paving = invert(aided, asked.problem().prior, search).paving;
         if (!paving.has_outer()) return std::nullopt;
         auto const left = paving.outer_hull();
         if (!map) return explained_hull{left};

@@ -43,6 +43,10 @@ public:
         options.seconds =
             std::min(of_time_left * effort_->left(), effort_->seconds_of(options_->hulls));
         options.boxes = options_->hulls.boxes;
+        options.strategy = options_->strategy;
+        options.tried = [this](contraction_journal const& more) {
+            add(run_->result.journal, more);
+        };
         options.keep_going = [this] { return effort_->go_on(); };
         run_->answer_hull = later ? explained_hull{bound_times(effects.front(), c, options)}
                                   : effect_hulls(run_->base, effects, options);

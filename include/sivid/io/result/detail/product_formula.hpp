@@ -100,6 +100,19 @@ private:
     std::vector<int> exponents_;
 };
 
+/// Whether a text is a sum or difference of names, as `find_sums` writes them.
+[[nodiscard]] inline bool is_sum_of(std::string_view text, std::vector<std::string> const& names) {
+    if (text.substr(0, 1) == "-") text.remove_prefix(1);
+    std::size_t terms = 0;
+    while (true) {
+        auto const end = std::min({text.find(" + "), text.find(" - "), text.size()});
+        if (std::find(names.begin(), names.end(), text.substr(0, end)) == names.end()) return false;
+        ++terms;
+        if (end == text.size()) return terms > 1;
+        text.remove_prefix(end + 3);
+    }
+}
+
 } // namespace sivid
 
 #endif // SIVID_IO_RESULT_DETAIL_PRODUCT_FORMULA_HPP

@@ -153,6 +153,18 @@ inline std::pair<interval, interval> preimage_volumes(reduction const& map,
     return {volume(inside, cells), volume(left, cells)};
 }
 
+/// What is left of the combinations of a problem's parameters, sums among them.
+/// @param map   to sides of which `left` is left; null where these are the parameters
+inline std::vector<combination_hull> combinations_left(dependence_structure const& structure,
+                                                       reduction const* map, box const& left,
+                                                       subpaving const& paving) {
+    bool const sums = map != nullptr && map->has_sums();
+    auto result = hulls_of(structure, map == nullptr || sums ? nullptr : &left, paving.boxes());
+    for (auto const& known : sums ? map->products_over(left) : std::vector<combination_hull>{})
+        if (known.what.is_sum()) result.push_back(known);
+    return result;
+}
+
 /// Draws the paving of a reduced prior in the original one, and measures it there.
 /// @param reduced  covers the reduced prior, outside boxes kept
 /// @param boxes    tested to draw it
@@ -168,6 +180,11 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     drawing.resume = nullptr;
     drawing.proof_bytes = 0;
     result.paving = drawn(test, map, prior, drawing);
+    if (map.has_sums()) { // of their preimages neither volumes nor certificates are known
+        result.hull = result.paving.outer_hull();
+        result.proof = {};
+        return;
+    }
     auto const [inner, outer] = preimage_volumes(map, reduced, prior);
     result.paving.set_volumes(inner, outer);
     result.volumes = volume_source::preimage;

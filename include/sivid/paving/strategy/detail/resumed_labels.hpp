@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_JUDGE_DETAIL_RESUMED_LABELS_HPP
-#define SIVID_PAVING_JUDGE_DETAIL_RESUMED_LABELS_HPP
+#ifndef SIVID_PAVING_STRATEGY_DETAIL_RESUMED_LABELS_HPP
+#define SIVID_PAVING_STRATEGY_DETAIL_RESUMED_LABELS_HPP
 
 #include <sivid/model/problem.hpp>
+#include <sivid/paving/identification.hpp>
+#include <sivid/paving/identification_state.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/search/search_state.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
+#include <sivid/paving/subpaving.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>
 
@@ -88,6 +92,46 @@ private:
 
     feasibility_test test_;
 };
+
+/// Whether a box meets what is left.
+inline bool is_left(subpaving const& paving, box const& x) {
+    return std::any_of(paving.boxes().begin(), paving.boxes().end(), [&x](paved_box const& b) {
+        return b.verdict != box_verdict::outside && !is_empty(intersect(b.set, x));
+    });
+}
+
+/// A state to resume from must agree with the witness and with its own boxes' middles.
+/// @param asked  knows what the state says is left, and its fit
+/// @param limit  for runs at the middles
+/// @throws std::invalid_argument
+inline void require_true_state(identification_state const& state, inquiry const& asked,
+                               feasibility_test_options const& test, bool witness,
+                               box const& fitted, work_limit const& limit) {
+    if (witness) {
+        resumed_labels::require_left(state.search, fitted);
+        if (state.left && is_empty(intersect(state.left->parameters, fitted)))
+            resumed_labels::refuse("what it says is left excludes parameters that explain the "
+                                   "data");
+    }
+    resumed_labels(asked.whole(), limited(test, limit), asked.proposed_starts())
+        .require_true(state.search, limit);
+}
+
+/// A verified witness and the exclusion of its parameters contradict each other: one of them is no
+/// proof, and nothing is told.
+/// @param resumed  from a state, which may have been altered
+/// @throws std::logic_error
+inline void require_witness_left(identification const& found, bool resumed) {
+    if (!found.witness) return;
+    auto const at = point_box(found.witness->parameters);
+    bool const left = contains(found.hull, found.witness->parameters) && is_left(found.paving, at);
+    if (left &&
+        (!found.products || is_left(found.products->paving, found.products->map.forward(at))))
+        return;
+    if (resumed) resumed_labels::refuse("it excludes parameters that explain the data");
+    throw std::logic_error("identify: parameters that explain the data were excluded: a defect, "
+                           "please report it");
+}
 
 } // namespace sivid::paving_detail
 

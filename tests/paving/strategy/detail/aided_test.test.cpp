@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/judge/detail/equation_aided_test.hpp>
+#include <sivid/paving/strategy/detail/aided_test.hpp>
 
 #include "diagnosis/planted_records.hpp"
 #include "support/catch.hpp"
 #include "support/sweep.hpp"
 
 #include <sivid/paving/invert.hpp>
+#include <sivid/paving/strategy/detail/without_runs.hpp>
+
+#include <memory>
 
 using namespace diagnosis_support;
+using paving_detail::aided_test;
+
+namespace {
+
+strategy without_runs() {
+    return {{{{std::make_shared<paving_detail::equation_contractor>(),
+               std::make_shared<paving_detail::observer_contractor>()}}}};
+}
+
+} // namespace
 
 TEST_CASE("runs and equations together remove no parameter that explains the data") {
     draws d(720);
@@ -18,8 +31,7 @@ TEST_CASE("runs and equations together remove no parameter that explains the dat
             auto const r = record_of(d, what, m);
             feasibility_test runs(r.problem, {});
             // Always asked, or where runs end early.
-            equation_aided_test test(runs, r.problem, {.rounds = 2, .cells_per_gap = 2},
-                                     d.coin() ? 2 : 0.5);
+            aided_test test(runs, r.problem, without_runs(), {}, d.coin() ? 2 : 0.5);
             auto const found =
                 invert(test, r.problem.prior,
                        {.accuracy_of_hull = true, .boxes = 40, .keep_outside = false});
@@ -36,7 +48,7 @@ TEST_CASE("runs that end early leave a wind to the equations") {
     auto const problem = windy_record(d, truth);
     feasibility_test runs(problem, {});
     REQUIRE(runs.reached(problem.prior) < 0.5);
-    equation_aided_test test(runs, problem, {.rounds = 1, .cells_per_gap = 2});
+    aided_test test(runs, problem, without_runs(), {});
     CHECK(test.at_once() == 1);
     inversion_options options{.accuracy_of_hull = true, .boxes = 60, .keep_outside = false};
     auto const hull = invert(test, problem.prior, options).paving.outer_hull();
@@ -55,6 +67,6 @@ TEST_CASE("models with delays are left to runs") {
     auto problem = windy_record(d, {0.8, -0.6, 0.4});
     feasibility_test runs(problem, {});
     problem.model.input_memory.push_back({});
-    equation_aided_test const test(runs, problem, {});
+    aided_test const test(runs, problem, without_runs(), {});
     CHECK(test.at_once() == runs.at_once());
 }

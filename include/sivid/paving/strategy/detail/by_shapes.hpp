@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_JUDGE_DETAIL_SHAPE_CONTRACTION_HPP
-#define SIVID_PAVING_JUDGE_DETAIL_SHAPE_CONTRACTION_HPP
+#ifndef SIVID_PAVING_STRATEGY_DETAIL_BY_SHAPES_HPP
+#define SIVID_PAVING_STRATEGY_DETAIL_BY_SHAPES_HPP
 
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/curve/detail/shaped_problem.hpp>
-#include <sivid/paving/identify_options.hpp>
+#include <sivid/paving/strategy/contractor.hpp>
+#include <sivid/paving/strategy/detail/by_windows.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>
 
+#include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,17 +25,16 @@ namespace sivid::paving_detail {
 ///   family, whose curves have shapes of their own. Over these a window grows to the whole record;
 ///   its polynomials judge parts of the families, along their lines; what is left has narrower
 ///   shapes again, and so on.
-class shape_contractor {
+class shape_windows {
 public:
-    shape_contractor(shaped_problem& shaped, identify_options const& options,
-                     work_limit const& limit)
-        : shaped_(&shaped), options_(&options), limit_(&limit) {
+    shape_windows(shaped_problem& shaped, inquiry const& asked, work_limit const& limit)
+        : shaped_(&shaped), asked_(&asked), limit_(&limit) {
         found_.starts = shaped.starts();
     }
 
     [[nodiscard]] window_contraction operator()() {
         auto const posed = shaped_->parameters();
-        run_options const& run = options_->test;
+        run_options const& run = asked_->options();
         bool left = true;
         if (shaped_->shape(1e-7, *limit_)) {
             left = windows({.run = run, .seconds = 0.1 * limit_->seconds(), .chained = 1}) &&
@@ -65,9 +67,12 @@ private:
     /// @returns false when it is proved that nothing is left
     [[nodiscard]] bool windows(window_options how) {
         how.keep_going = *limit_;
-        how.workers = options_->search.workers;
+        how.workers = asked_->search().workers;
         how.degree = 2; // what is of third order is small where shapes are linear
-        found_ = joined(found_, contract_by_windows(shaped_->posed(), how));
+        auto found = contract_by_windows(shaped_->posed(), how);
+        found.windows += found_.windows;
+        found.longest = std::max(found.longest, found_.longest);
+        found_ = std::move(found);
         if (found_.empty()) return false;
         shaped_->take(found_.rest);
         shaped_->begin_in(found_.starts);
@@ -79,7 +84,7 @@ private:
         constexpr std::size_t most = 64;
         if (found_.responses.empty()) return true;
         auto left = shaped_->parts(most);
-        options_->search.workers(left.size(), [&](std::size_t k) {
+        asked_->search().workers(left.size(), [&](std::size_t k) {
             auto const part = left[k];
             if (is_empty(part) || !(*limit_)()) return;
             lifted_program const program(found_.responses, part, found_.from, fine);
@@ -91,24 +96,29 @@ private:
     }
 
     shaped_problem* shaped_;
-    identify_options const* options_;
+    inquiry const* asked_;
     work_limit const* limit_;
     window_contraction found_; ///< rest and responses of the last windows
 };
 
-/// What windows leave of the prior with coefficients of shapes in place of constants of curves;
-/// nothing where there are no such curves, or nothing is gained.
-inline std::optional<window_contraction> contract_by_shapes(identification_problem const& posed,
-                                                            identify_options const& options,
-                                                            work_limit const& limit) {
-    work_limit const own(0.9 * limit.seconds(), limit);
-    auto shaped = shaped_problem::of(posed, own);
-    if (!shaped) return std::nullopt;
-    auto result = shape_contractor(*shaped, options, own)();
-    if (!(relative_volume(result.rest, posed.prior).upper() < 1)) return std::nullopt;
-    result.seconds = own.spent();
-    return result;
-}
+/// Windows over fixed shapes in place of constants within a function of one moving quantity.
+class by_shapes : public by_windows {
+public:
+    [[nodiscard]] std::string name() const override { return "shapes"; }
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
+                                      contraction_record& says) const override {
+        auto shaped = shaped_problem::of(asked.problem(), limit);
+        if (!shaped) {
+            says.why = "no constants stand within a function of one moving quantity";
+            says.how = contraction_record::outcome::not_applicable;
+            return asked.left();
+        }
+        auto found = shape_windows(*shaped, asked, limit)();
+        auto const& prior = asked.problem().prior;
+        if (!(relative_volume(found.rest, prior).upper() < 1)) return asked.left();
+        return left_by(std::move(found), says);
+    }
+};
 
 } // namespace sivid::paving_detail
 

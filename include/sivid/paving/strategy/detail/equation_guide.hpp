@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_PAVING_JUDGE_DETAIL_EQUATION_GUIDE_HPP
-#define SIVID_PAVING_JUDGE_DETAIL_EQUATION_GUIDE_HPP
+#ifndef SIVID_PAVING_STRATEGY_DETAIL_EQUATION_GUIDE_HPP
+#define SIVID_PAVING_STRATEGY_DETAIL_EQUATION_GUIDE_HPP
 
 #include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/graph_range.hpp>
