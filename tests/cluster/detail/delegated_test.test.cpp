@@ -46,7 +46,9 @@ std::string text_of(inversion const& found) {
 }
 std::string text_of(search_state state) {
     state.seconds = 0;
-    return checkpoint_text({{}, 0, {}, std::move(state)}, "rings");
+    identification_state whole;
+    whole.search = std::move(state);
+    return checkpoint_text(whole, "rings");
 }
 
 inversion_options options_of(support::draws& d) {

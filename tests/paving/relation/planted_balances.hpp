@@ -18,7 +18,7 @@ using terms = std::vector<expression>;
 
 /// Equations with constants, the wide prior that is given and the part of it that truths are in.
 struct balanced {
-    planted system; ///< its prior is the wide one
+    diagnosis_support::planted system; ///< its prior is the wide one
     box truths;
     std::size_t sums; ///< that are found
 };
