@@ -57,7 +57,7 @@ struct outcome {
           outputs(text_of(out / "outputs.csv")) {
         result.erase("seconds");
         for (auto const* time : {"seconds", "most_seconds"}) result["search"].erase(time);
-        if (result.contains("windows")) result["windows"].erase("seconds");
+        for (auto& tried : result["journal"]) tried.erase("seconds");
         result.erase("source");
     }
 };
