@@ -66,8 +66,8 @@ void compare(std::vector<units> const& all, double seconds) {
         for (double const spread : {0.0, 1e-3, 0.03}) {
             auto const base = enclosed({}, how, spread, seconds);
             for (auto const& in : all) {
-                bool const exact = std::ldexp(1.0, std::ilogb(in.time)) == in.time &&
-                                   std::ldexp(1.0, std::ilogb(in.state)) == in.state;
+                auto const power = [](double x) { return std::ldexp(1.0, std::ilogb(x)) == x; };
+                bool const exact = power(in.time) && power(in.state) && power(in.input);
                 auto const found = enclosed(in, how, spread, seconds);
                 CAPTURE(how.name, spread, in.name, in.state, in.input);
                 auto const apart = [](std::size_t a, std::size_t b) {
