@@ -7,6 +7,8 @@
 // A line each: verdict, the figure that is scored, how far motions were enclosed, integrations,
 // seconds. CVDP23 also stands with what a person would choose, in the same run: degree 6 and four
 // boxes.
+#include "../enclosure/problems.hpp"
+
 #include <sivid/decision/prediction.hpp>
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/verification.hpp>
@@ -28,93 +30,6 @@ namespace {
 
 using namespace sivid;
 
-/// Coupled van der Pol oscillators (CVDP23), b unknown and constant.
-struct coupled_oscillators {
-    static constexpr auto name = "coupled van der Pol oscillators";
-    static constexpr auto states =
-        sivid::states({{"x1", "", 3}, {"y1", "", 4}, {"x2", "", 3}, {"y2", "", 4}});
-    static constexpr auto inputs = no_inputs;
-    static constexpr auto channels = sivid::channels({{"y1", ""}, {"y2", ""}});
-    static constexpr auto constants = sivid::constants({{"b", "", 2_dec}});
-
-    template <class T>
-    vec<T, 4> rate(T const&, vec<T, 4> const& s, vec<T, 1> const& c, vec<T, 0> const&) const {
-        auto const& [x1, y1, x2, y2] = s;
-        auto const pull = c[0] * (x2 - x1);
-        return {y1, (1 - x1 * x1) * y1 + pull - x1, y2, (1 - x2 * x2) * y2 - pull - x2};
-    }
-    template <class T>
-    vec<T, 2> observe(T const&, vec<T, 4> const& s, vec<T, 1> const&, vec<T, 0> const&) const {
-        return {s[1], s[3]};
-    }
-};
-
-/// Laub and Loomis's enzymes (LALO20).
-struct enzymes {
-    static constexpr auto name = "Laub-Loomis";
-    static constexpr auto states = sivid::states({{"x1", "", 2},
-                                                  {"x2", "", 2},
-                                                  {"x3", "", 2},
-                                                  {"x4", "", 5},
-                                                  {"x5", "", 2},
-                                                  {"x6", "", 1},
-                                                  {"x7", "", 1}});
-    static constexpr auto inputs = no_inputs;
-    static constexpr auto channels = sivid::channels({{"x4", ""}});
-    static constexpr auto constants = sivid::constants({{"fed", "", 2_dec}});
-
-    template <class T>
-    vec<T, 7> rate(T const&, vec<T, 7> const& s, vec<T, 1> const& c, vec<T, 0> const&) const {
-        auto const& [x1, x2, x3, x4, x5, x6, x7] = s;
-        return {1.4_dec * x3 - 0.9_dec * x1,      2.5_dec * x5 - 1.5_dec * x2,
-                0.6_dec * x7 - 0.8_dec * x2 * x3, c[0] - 1.3_dec * x3 * x4,
-                0.7_dec * x1 - x4 * x5,           0.3_dec * x1 - 3.1_dec * x6,
-                1.8_dec * x6 - 1.6_dec * x2 * x7};
-    }
-    template <class T>
-    vec<T, 1> observe(T const&, vec<T, 7> const& s, vec<T, 1> const&, vec<T, 0> const&) const {
-        return {s[3]};
-    }
-};
-
-/// Robertson's reaction (ROBE25), with b and g of three sizes.
-struct reaction {
-    static constexpr auto name = "Robertson";
-    static constexpr auto states = sivid::states({{"x", "", 1}, {"y", "", 1}, {"z", "", 1}});
-    static constexpr auto inputs = no_inputs;
-    static constexpr auto channels = sivid::channels({{"sum", ""}});
-    static constexpr auto constants = sivid::constants({{"b", "", 100_dec}, {"g", "", 1000_dec}});
-
-    template <class T>
-    vec<T, 3> rate(T const&, vec<T, 3> const& s, vec<T, 2> const& c, vec<T, 0> const&) const {
-        auto const& [x, y, z] = s;
-        auto const slow = 0.4_dec * x, back = c[0] * y * z, fast = c[1] * y * y;
-        return {back - slow, slow - back - fast, fast};
-    }
-    template <class T>
-    vec<T, 1> observe(T const&, vec<T, 3> const& s, vec<T, 2> const&, vec<T, 0> const&) const {
-        return {s[0] + s[1] + s[2]};
-    }
-};
-
-/// Lotka and Volterra's predators (LOVO25), without the guard.
-struct predators {
-    static constexpr auto name = "Lotka-Volterra";
-    static constexpr auto states = sivid::states({{"x", "", 2}, {"y", "", 2}});
-    static constexpr auto inputs = no_inputs;
-    static constexpr auto channels = sivid::channels({{"x", ""}, {"y", ""}});
-    static constexpr auto constants = sivid::constants({{"a", "", 3_dec}});
-
-    template <class T>
-    vec<T, 2> rate(T const&, vec<T, 2> const& s, vec<T, 1> const& c, vec<T, 0> const&) const {
-        return {c[0] * s[0] - c[0] * s[0] * s[1], s[0] * s[1] - s[1]};
-    }
-    template <class T>
-    vec<T, 2> observe(T const&, vec<T, 2> const& s, vec<T, 1> const&, vec<T, 0> const&) const {
-        return s;
-    }
-};
-
 prediction_problem posed(recorded_model model, box initial, double end,
                          parameter_choice choice = {}, box sides = box(0)) {
     prediction_problem p;
@@ -126,8 +41,8 @@ prediction_problem posed(recorded_model model, box initial, double end,
     return p;
 }
 prediction_problem oscillators() {
-    interval const x(1.25, 1.55), y = hull(2.35_dec, 2.45_dec);
-    return posed(record_model<coupled_oscillators>(), {x, y, x, y}, 7, {{"b"}, {}},
+    auto const x = hull(1.25_dec, 1.55_dec), y = hull(2.35_dec, 2.45_dec);
+    return posed(record_model<problems::coupled_oscillators>(), {x, y, x, y}, 7, {{"b"}, {}},
                  {interval(1, 3)});
 }
 /// @param halfwidth  of each state, in hundredths
@@ -136,7 +51,7 @@ prediction_problem enzymes_about(int halfwidth) {
     box starts(std::size(centres));
     for (std::size_t i = 0; i < starts.size(); ++i)
         starts[i] = interval(centres[i] - halfwidth, centres[i] + halfwidth) / interval(100);
-    return posed(record_model<enzymes>(), std::move(starts), 20);
+    return posed(record_model<problems::laub_loomis>(), std::move(starts), 20);
 }
 
 void line(std::string const& name, std::string const& verdict, double scored, char const* of,
@@ -152,10 +67,13 @@ void show(std::string const& name, prediction_problem p, char const* wanted,
     line(name, std::string(to_string(found.answer)), found.found.low, "least margin", found.reached,
          found.integrations, found.seconds);
 }
-void width_at_end(std::string const& name, prediction_problem const& p, std::size_t channel,
-                  char const* of, prediction_options const& options) {
-    auto const found = predict(p, options);
-    auto const& tube = found.channels[channel];
+/// @param of  the first channel, or the sum of the states
+void width_at_end(std::string const& name, prediction_problem p, char const* of,
+                  prediction_options const& options, bool sum = false) {
+    std::vector<node_id> further;
+    if (sum) further.push_back(problems::sum_of_states(p.model));
+    auto const found = predict(p, options, further);
+    auto const& tube = sum ? found.further.front() : found.channels.front();
     line(name, found.complete ? "complete" : "ends early", tube.high.back() - tube.low.back(), of,
          found.reached, found.integrations, found.seconds);
 }
@@ -167,7 +85,7 @@ void oscillators_by_hand(double seconds) {
     std::size_t integrations = 0;
     bool proved = true;
     for (auto const& b : {interval(1, 2), interval(2, 3)}) {
-        for (auto const& x : {interval(1.25, 1.4), interval(1.4, 1.55)}) {
+        for (auto const& x : {hull(1.25_dec, 1.4_dec), hull(1.4_dec, 1.55_dec)}) {
             auto p = oscillators();
             p.sets = {{b}};
             p.initial[0] = x;
@@ -205,19 +123,20 @@ int main(int argc, char** argv) {
           std::tuple{"LALO20, +-0.1", 10, "always(x4 < 5)"}}) {
         if (!asked(name)) continue;
         show(name, enzymes_about(halfwidth), bound, options);
-        width_at_end(name, enzymes_about(halfwidth), 0, "width of x4 at 20", options);
+        width_at_end(name, enzymes_about(halfwidth), "width of x4 at 20", options);
     }
     for (auto const& [name, b, g] : {std::tuple{"ROBE25, b 1e2, g 1e3", 1e2, 1e3},
                                      std::tuple{"ROBE25, b 1e3, g 1e5", 1e3, 1e5},
                                      std::tuple{"ROBE25, b 1e3, g 1e7", 1e3, 1e7}}) {
         if (!asked(name)) continue;
-        auto const p = posed(record_model<reaction>(), {interval(1), interval(0), interval(0)}, 40,
-                             {{}, {{"b", interval(b)}, {"g", interval(g)}}});
-        width_at_end(name, p, 0, "width of x+y+z at 40", options);
+        auto const p =
+            posed(record_model<problems::robertson>(), {interval(1), interval(0), interval(0)}, 40,
+                  {{}, {{"beta", interval(b)}, {"gamma", interval(g)}}});
+        width_at_end(name, p, "width of x+y+z at 40", options, true);
     }
     if (asked("LOVO25"))
-        width_at_end(
-            "LOVO25, without its guard",
-            posed(record_model<predators>(), {hull(1.288_dec, 1.312_dec), interval(1)}, 3.64), 0,
-            "width of x at 3.64", options);
+        width_at_end("LOVO25, without its guard",
+                     posed(record_model<problems::lotka_volterra>(),
+                           {hull(1.288_dec, 1.312_dec), interval(1)}, 3.64),
+                     "width of x at 3.64", options);
 }

@@ -5,6 +5,8 @@
 
 #include <sivid/model/model.hpp>
 
+#include <cstddef>
+
 namespace problems {
 
 /// x' = y,  y' = mu (1 - x^2) y - x
@@ -111,6 +113,40 @@ struct robertson {
         return {s[0]};
     }
 };
+
+/// ARCH-COMP, category nonlinear dynamics (CVDP23): two van der Pol oscillators coupled by a spring
+/// of unknown stiffness b.
+struct coupled_oscillators {
+    static constexpr auto name = "coupled van der Pol oscillators";
+    static constexpr auto states =
+        sivid::states({{"x1", "1", 3}, {"y1", "1", 4}, {"x2", "1", 3}, {"y2", "1", 4}});
+    static constexpr auto inputs = sivid::no_inputs;
+    static constexpr auto channels = sivid::channels({{"y1", "1"}, {"y2", "1"}});
+    static constexpr auto constants = [] {
+        using namespace sivid::literals;
+        return sivid::constants({{"b", "1", 2_dec}});
+    }();
+    template <class T>
+    sivid::vec<T, 4> rate(T const&, sivid::vec<T, 4> const& s, sivid::vec<T, 1> const& c,
+                          sivid::vec<T, 0> const&) const {
+        auto const& [x1, y1, x2, y2] = s;
+        T const pull = c[0] * (x2 - x1);
+        return {y1, (1 - x1 * x1) * y1 + pull - x1, y2, (1 - x2 * x2) * y2 - pull - x2};
+    }
+    template <class T>
+    sivid::vec<T, 2> observe(T const&, sivid::vec<T, 4> const& s, sivid::vec<T, 1> const&,
+                             sivid::vec<T, 0> const&) const {
+        return {s[1], s[3]};
+    }
+};
+
+/// The sum of all states, as a node of a model's graph.
+inline sivid::node_id sum_of_states(sivid::recorded_model& model) {
+    auto sum = model.g.constant(0.0);
+    for (std::size_t i = 0; i < model.rate.size(); ++i)
+        sum = model.g.add(sum, model.g.leaf(sivid::operation::state, i));
+    return sum;
+}
 
 /// x' = 3 x - 3 x y,  y' = x y - y
 struct lotka_volterra {

@@ -5,6 +5,7 @@
 #include <sivid/decision/requirement.hpp>
 #include <sivid/decision/verification.hpp>
 
+#include "../../benchmarks/enclosure/problems.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -19,52 +20,12 @@ namespace {
 
 using namespace sivid;
 
-struct coupled_oscillators {
-    static constexpr auto name = "coupled van der Pol oscillators";
-    static constexpr auto states =
-        sivid::states({{"x1", "", 3}, {"y1", "", 4}, {"x2", "", 3}, {"y2", "", 4}});
-    static constexpr auto inputs = no_inputs;
-    static constexpr auto channels = sivid::channels({{"y1", ""}, {"y2", ""}});
-    static constexpr auto constants = sivid::constants({{"b", "", 2_dec}});
-
-    template <class T>
-    vec<T, 4> rate(T const&, vec<T, 4> const& s, vec<T, 1> const& c, vec<T, 0> const&) const {
-        auto const& [x1, y1, x2, y2] = s;
-        auto const pull = c[0] * (x2 - x1);
-        return {y1, (1 - x1 * x1) * y1 + pull - x1, y2, (1 - x2 * x2) * y2 - pull - x2};
-    }
-    template <class T>
-    vec<T, 2> observe(T const&, vec<T, 4> const& s, vec<T, 1> const&, vec<T, 0> const&) const {
-        return {s[1], s[3]};
-    }
-};
-
-struct reaction {
-    static constexpr auto name = "Robertson";
-    static constexpr auto states = sivid::states({{"x", "", 1}, {"y", "", 1}, {"z", "", 1}});
-    static constexpr auto inputs = no_inputs;
-    static constexpr auto channels = sivid::channels({{"sum", ""}});
-    static constexpr auto constants =
-        sivid::constants({{"b", "", 1000_dec}, {"g", "", 100000_dec}});
-
-    template <class T>
-    vec<T, 3> rate(T const&, vec<T, 3> const& s, vec<T, 2> const& c, vec<T, 0> const&) const {
-        auto const& [x, y, z] = s;
-        auto const slow = 0.4_dec * x, back = c[0] * y * z, fast = c[1] * y * y;
-        return {back - slow, slow - back - fast, fast};
-    }
-    template <class T>
-    vec<T, 1> observe(T const&, vec<T, 3> const& s, vec<T, 2> const&, vec<T, 0> const&) const {
-        return {s[0] + s[1] + s[2]};
-    }
-};
-
 prediction_problem oscillators(interval const& b) {
     prediction_problem p;
-    p.model = record_model<coupled_oscillators>();
+    p.model = record_model<problems::coupled_oscillators>();
     p.choice = {{"b"}, {}};
     p.sets = {box{b}};
-    interval const x(1.25, 1.55), y = hull(2.35_dec, 2.45_dec);
+    auto const x = hull(1.25_dec, 1.55_dec), y = hull(2.35_dec, 2.45_dec);
     p.initial = {x, y, x, y};
     p.end = 7;
     return p;
@@ -113,13 +74,15 @@ TEST_CASE("wide starts are halved along the sides that lose a motion") {
 
 TEST_CASE("a stiff point is predicted whole, between the instants as well") {
     prediction_problem p;
-    p.model = record_model<reaction>();
+    p.model = record_model<problems::robertson>();
+    p.choice = {{}, {{"beta", interval(1e3)}, {"gamma", interval(1e5)}}};
     p.sets = {box(0)};
     p.initial = {interval(1), interval(0), interval(0)};
     p.end = 40;
-    auto const found = predict(p, {.seconds = 600});
+    auto const total = problems::sum_of_states(p.model);
+    auto const found = predict(p, {.seconds = 600}, {total});
     CHECK(found.complete);
-    auto const& sum = found.channels[0]; // no reaction changes it
+    auto const& sum = found.further[0]; // no reaction changes it
     for (std::size_t s = 0; s < sum.low.size(); ++s) {
         CHECK(sum.low[s] <= 1);
         CHECK(sum.high[s] >= 1);

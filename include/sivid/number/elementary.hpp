@@ -460,6 +460,14 @@ inline interval nearest_atan2(interval const& y, interval const& x, bool& cut) n
     return unchecked_interval(lo, hi);
 }
 
+/// The part in [-1, 1]; sets `left` if there is more.
+inline interval within_one(interval const& t, bool& left) noexcept {
+    if (is_empty(t)) return t;
+    if (t.lower() < -1.0 || t.upper() > 1.0) left = true;
+    if (t.upper() < -1.0 || t.lower() > 1.0) return empty_interval();
+    return unchecked_interval(at_least(t.lower(), -1.0), at_most(t.upper(), 1.0));
+}
+
 } // namespace detail
 
 /// \f$ \{\arcsin t : t \in x \cap [-1, 1]\} \f$; sets `cut` if x leaves [-1, 1].
@@ -468,11 +476,10 @@ inline interval asin(interval const& x, bool& cut) noexcept {
     return detail::in_nearest_mode_cut(
         cut,
         [](interval const& t, bool& left) {
-            if (is_empty(t)) return t;
-            if (t.lower() < -1.0 || t.upper() > 1.0) left = true;
-            if (t.upper() < -1.0 || t.lower() > 1.0) return detail::empty_interval();
-            double const a = detail::at_least(t.lower(), -1.0), b = detail::at_most(t.upper(), 1.0);
-            detail::bounds_at const y = detail::at_ends<simd::asin_bounds>(a, b);
+            interval const part = detail::within_one(t, left);
+            if (is_empty(part)) return part;
+            detail::bounds_at const y =
+                detail::at_ends<simd::asin_bounds>(part.lower(), part.upper());
             constexpr double bound = detail::half_pi_up;
             return detail::unchecked_interval(detail::clamp(y.lower, -bound, bound),
                                               detail::clamp(y.upper, -bound, bound));
@@ -486,11 +493,10 @@ inline interval acos(interval const& x, bool& cut) noexcept {
     return detail::in_nearest_mode_cut(
         cut,
         [](interval const& t, bool& left) {
-            if (is_empty(t)) return t;
-            if (t.lower() < -1.0 || t.upper() > 1.0) left = true;
-            if (t.upper() < -1.0 || t.lower() > 1.0) return detail::empty_interval();
-            double const a = detail::at_least(t.lower(), -1.0), b = detail::at_most(t.upper(), 1.0);
-            detail::bounds_at const y = detail::at_ends<simd::acos_bounds>(b, a);
+            interval const part = detail::within_one(t, left);
+            if (is_empty(part)) return part;
+            detail::bounds_at const y =
+                detail::at_ends<simd::acos_bounds>(part.upper(), part.lower());
             return detail::unchecked_interval(detail::clamp(y.lower, 0.0, detail::pi_up),
                                               detail::clamp(y.upper, 0.0, detail::pi_up));
         },

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "report/draw/compared_series.hpp"
 #include "report/well_formed.hpp"
 #include "support/catch.hpp"
 
@@ -29,18 +30,6 @@ channel_series figure_4_1() {
                                   wild ? sample_state::forced_outlier : sample_state::regular});
         }
     }
-    return c;
-}
-
-channel_series compared_series() {
-    channel_series c{.name = "r", .unit = "rad/s"};
-    for (int k = 0; k < 10; ++k) {
-        c.measured.push_back({.time = 1.0 * k, .value = {k - 0.1, k + 0.1}});
-        c.before.push_back({1.0 * k, k + 0.5});
-        c.after.push_back({1.0 * k, 1.0 * k});
-        c.misfit_before.push_back({1.0 * k, k == 7 ? 9.0 : 0.5});
-    }
-    c.measured[4].state = sample_state::suspect;
     return c;
 }
 
