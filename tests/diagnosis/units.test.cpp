@@ -100,8 +100,7 @@ void check_same(diagnosis const& own, units const& in, diagnosis const& base) {
         CAPTURE(own.constants[j].name);
         CHECK(own.constants[j].hull.has_value() == base.constants[j].hull.has_value());
         if (own.constants[j].hull && base.constants[j].hull)
-            // Linear programs over windows leave 0.1 % more or less, which a search makes more of.
-            check_same(*own.constants[j].hull, sizes.at(j), *base.constants[j].hull, 0.04);
+            check_same(*own.constants[j].hull, sizes.at(j), *base.constants[j].hull, 0.01);
     }
     CHECK_THAT(own.inflation.lower(), WithinRel(base.inflation.lower(), 0.01));
     CHECK_THAT(own.inflation.upper(), WithinRel(base.inflation.upper(), 0.01));

@@ -112,23 +112,31 @@ public:
         return result;
     }
 
-    /// The member whose multiplier is first driven to zero.
+    /// The member whose multiplier is first driven to zero: of those that are so at nearly the same
+    /// step the one that falls fastest, as a small pivot spoils the factors. Others may then fall
+    /// below zero by a billionth of the largest.
     /// @param direction  how the multipliers fall, @param present  what they are
     /// @returns the number of all when none falls
+    /// @ref  P. M. J. Harris, Pivot selection methods of the Devex LP code, Mathematical
+    /// Programming
+    ///   5 (1973)
     [[nodiscard]] static std::size_t leaving(std::vector<double> const& direction,
                                              std::vector<double> const& present) {
-        double largest = 0;
-        for (double const d : direction) largest = std::max(largest, std::abs(d));
-        std::size_t leaves = direction.size();
-        double step = std::numeric_limits<double>::infinity();
+        double fastest = 0, largest = 0;
+        for (double const d : direction) fastest = std::max(fastest, std::abs(d));
+        for (double const y : present) largest = std::max(largest, std::abs(y));
+        auto const step = [&](std::size_t k, double below) {
+            return (std::max(present[k], 0.0) + below) / direction[k];
+        };
+        auto const falls = [&](std::size_t k) { return direction[k] > 1e-11 * fastest; };
+        double furthest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < direction.size(); ++k) {
-            if (!(direction[k] > 1e-11 * largest)) continue;
-            double const ratio = std::max(present[k], 0.0) / direction[k];
-            bool const ties = leaves < direction.size() && ratio == step;
-            if (ratio < step || (ties && direction[k] > direction[leaves])) {
-                step = ratio;
-                leaves = k;
-            }
+            if (falls(k)) furthest = std::min(furthest, step(k, 1e-9 * largest));
+        }
+        std::size_t leaves = direction.size();
+        for (std::size_t k = 0; k < direction.size(); ++k) {
+            if (!falls(k) || !(step(k, 0) <= furthest)) continue;
+            if (leaves == direction.size() || direction[k] > direction[leaves]) leaves = k;
         }
         return leaves;
     }
