@@ -251,3 +251,10 @@ TEST_CASE("numbers that are none end a run, and so does its limit") {
               },
               25) == outcome::stopped);
 }
+
+TEST_CASE("of nearly equal steps the larger pivot leaves") {
+    // The first is driven to zero a trillionth earlier, by a pivot that spoils the factors.
+    CHECK(dual_simplex::leaving({1e-9, 1}, {0.5e-9, 0.5 * (1 + 1e-12)}) == 1);
+    CHECK(dual_simplex::leaving({0.5, 1}, {0.25, 0.6}) == 0);
+    CHECK(dual_simplex::leaving({-1, 0}, {1, 1}) == 2);
+}
