@@ -312,7 +312,8 @@ private:
                 bool const ends = !(w.to < last_sample(w.experiment));
                 if (w.blur < 1 && !ends && lengths[k] < options_.longest) {
                     lengths[k] = std::min((w.blur < 0.5 ? 2 : 1.35) * lengths[k], options_.longest);
-                    grown = grown || lengths[k] > longest[k];
+                    // Shrunk by a fifth, then stretched: 8 % more each time is no growth.
+                    grown = grown || lengths[k] > 1.1 * longest[k];
                     longest[k] = std::max(longest[k], lengths[k]);
                 } else if (!(w.blur < 4)) {
                     lengths[k] *= 0.8;
