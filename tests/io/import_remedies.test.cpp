@@ -82,7 +82,22 @@ TEST_CASE("remedies: lines of several kinds") {
           "no line has 'MOT' in this column; write one of these: 'GPS' (1 line), 'IMU' (2 lines)",
           csv(R"("lines": {"column": 1, "is": "IMU"})"), kinds},
          {fields, log, "'IMU' (3 lines), 'GPS' (1 line), 'MODE' (1 line); state", chosen, log},
+         {fields, "1,0,1,100\n2,5,1,57\n1,10,1,101\n2,15,1,58\n",
+          "whole numbers take turns in a column that is not mapped: '1' (2 lines), '2' (2 lines)",
+          replaced(fields, "0.05", R"(0.05, "lines": {"column": 1, "is": 1})"),
+          "1,0,1,100\n2,5,1,57\n1,10,1,101\n2,15,1,58\n"},
          {csv(R"("lines": "some")"), table, "write \"all\" or", csv(R"("lines": "all")"), table}});
+}
+
+TEST_CASE("remedies: a mode that changes seldom is no kind of lines") {
+    auto const fields = replaced(stream, "[\"t_ms\"", "[\"_\", \"t_ms\"");
+    std::string modes;
+    for (int i = 0; i < 12; ++i)
+        modes += std::to_string(i / 4 % 2) + "," + std::to_string(10 * i) + ",1,100\n";
+    temporary_folder const folder;
+    folder.write("mapping.json", fields);
+    folder.write("a.log", modes);
+    CHECK_NOTHROW(import_in(folder));
 }
 
 TEST_CASE("remedies: headings") {

@@ -49,8 +49,9 @@ namespace sivid {
 }
 
 /// Whether the lines of a file are of several kinds, as the messages of several sensors in one log:
-/// a text that stands in several lines but not in all of them, in a column that nobody reads. Which
-/// of them count is then a choice, and no import makes it.
+/// a text that stands in several lines but not in all of them, in a column that nobody reads; or a
+/// few whole numbers there that take turns from line to line, as the numbers of sensors do. Which of
+/// them count is then a choice, and no import makes it.
 class line_kinds {
 public:
     /// @param columns  how many there are
@@ -70,6 +71,7 @@ public:
                                read_time_of_day(cell) || cell.starts_with("0x");
             if (plain) {
                 ++(nothing ? column.blanks : column.numbers);
+                column.turns.count(cell);
             } else if (column.count.size() < most || column.count.count(cell) > 0) {
                 ++column.count[cell];
             } else {
@@ -79,32 +81,70 @@ public:
     }
 
     /// @param headings  of the columns, "" or "_" where they have no name
-    /// @throws input_error  where a text varies
+    /// @throws input_error  where a text varies, or whole numbers take turns
     void require_one(std::vector<std::string> const& headings, std::string const& file) const {
         for (std::size_t c = 0; c < texts_.size(); ++c) {
             auto const& column = texts_[c];
-            if (column.count.empty()) continue;
+            if (column.count.empty()) {
+                if (!column.turns.taken()) continue;
+                auto tags = column;
+                tags.count = column.turns.numbers(), tags.numbers = 0;
+                refuse(tags, "whole numbers take turns", c, headings[c], file);
+            }
             if (column.count.size() == 1 && column.numbers + column.blanks == 0) continue;
             if (most_frequent(column).second == 1) continue; // notes: each stands in one line
-            auto const heading = headings[c] == "_" ? std::string{} : headings[c];
-            throw input_error{
-                {.file = file, .column = c + 1, .heading = heading},
-                text_of("the lines are of several kinds: a text varies in a column that is not "
-                        "mapped: ",
-                        listed(column)),
-                text_of("state in the mapping's source which count, as in \"lines\": {\"column\": ",
-                        std::to_string(c + 1), ", \"is\": \"", most_frequent(column).first,
-                        "\"}, or \"lines\": \"all\" if they are of one kind")};
+            refuse(column, "a text varies", c, headings[c], file);
         }
     }
 
 private:
     static constexpr std::size_t most = 1000; ///< texts that are told apart
+
+    /// Whole numbers that may tell lines apart. A signal has more values, a mode few changes.
+    class number_turns {
+    public:
+        void count(std::string const& cell) {
+            constexpr std::size_t kinds = 8; // sensors on one wire
+            bool const whole = cell.find_first_not_of("0123456789") == std::string::npos;
+            if (!whole || cell.empty() || (seen_.size() == kinds && seen_.count(cell) == 0))
+                other_ = true;
+            if (other_) return;
+            if (lines_++ > 0 && cell != last_) ++changes_;
+            last_ = cell;
+            ++seen_[cell];
+        }
+        /// Whether most lines differ from the one before, and each number comes again.
+        [[nodiscard]] bool taken() const {
+            return !other_ && seen_.size() > 1 && 2 * changes_ > lines_ &&
+                   std::all_of(seen_.begin(), seen_.end(), [](auto const& n) {
+                       return n.second > 1;
+                   });
+        }
+        [[nodiscard]] std::map<std::string, std::size_t> const& numbers() const { return seen_; }
+
+    private:
+        bool other_ = false;
+        std::size_t lines_ = 0, changes_ = 0;
+        std::string last_;
+        std::map<std::string, std::size_t> seen_;
+    };
     struct column_texts {
         bool read = false;
         std::size_t numbers = 0, blanks = 0, others = 0;
         std::map<std::string, std::size_t> count;
+        number_turns turns;
     };
+
+    [[noreturn]] static void refuse(column_texts const& column, char const* what, std::size_t c,
+                                    std::string const& heading, std::string const& file) {
+        throw input_error{
+            {.file = file, .column = c + 1, .heading = heading == "_" ? std::string{} : heading},
+            text_of("the lines are of several kinds: ", what, " in a column that is not mapped: ",
+                    listed(column)),
+            text_of("state in the mapping's source which count, as in \"lines\": {\"column\": ",
+                    std::to_string(c + 1), ", \"is\": \"", most_frequent(column).first,
+                    "\"}, or \"lines\": \"all\" if they are of one kind")};
+    }
 
     static std::pair<std::string, std::size_t> most_frequent(column_texts const& column) {
         return *std::max_element(column.count.begin(), column.count.end(),
