@@ -122,6 +122,7 @@
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/paving/bisection_test.hpp>
+#include <sivid/paving/complete.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/curve/curve_shapes.hpp>
 #include <sivid/paving/divisors.hpp>
@@ -163,8 +164,11 @@
 #include <sivid/paving/response/misfit.hpp>
 #include <sivid/paving/response/relaxed_intersection.hpp>
 #include <sivid/paving/response/response.hpp>
+#include <sivid/paving/run/continued_run.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/run/further_runs.hpp>
 #include <sivid/paving/run/plain_run.hpp>
+#include <sivid/paving/run/run_parts.hpp>
 #include <sivid/paving/run/run_reach.hpp>
 #include <sivid/paving/run_options.hpp>
 #include <sivid/paving/search/exclusion_proof.hpp>

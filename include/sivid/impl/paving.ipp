@@ -5,6 +5,7 @@
 #include <sivid/paving/contract/impl/window_contraction.ipp>
 #include <sivid/paving/curve/impl/curve_family.ipp>
 #include <sivid/paving/curve/impl/shaped_problem.ipp>
+#include <sivid/paving/impl/complete.ipp>
 #include <sivid/paving/impl/identify.ipp>
 #include <sivid/paving/impl/inflation.ipp>
 #include <sivid/paving/impl/outlier_budget.ipp>

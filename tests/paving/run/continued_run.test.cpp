@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/run/continued_run.hpp>
 
 #include "support/catch.hpp"
 #include "support/power_series.hpp"
 #include "support/problems.hpp"
 
 #include <sivid/paving/response/local_response.hpp>
-#include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/run/continued_run.hpp>
 
 #include <vector>
 

@@ -8,6 +8,8 @@
 #include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/run/further_runs.hpp>
+#include <sivid/paving/run/run_parts.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -7,9 +7,10 @@
 #include <sivid/compiled.hpp>
 #include <sivid/model/problem_text.hpp>
 #include <sivid/number/text/sha256.hpp>
+#include <sivid/paving/detail/program_parts.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/judge/detail/core_box.hpp>
-#include <sivid/paving/judge/detail/fitted_witness.hpp>
+#include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
 #include <sivid/paving/strategy/detail/completion.hpp>
@@ -86,8 +87,9 @@ private:
     void propose() {
         if (map_) in_parameters_.emplace(*problem_, asked_.options());
         auto& test = map_ ? *in_parameters_ : asked_.test();
+        auto const fit = parts_of_program().find_witness;
         if (!resumed_) {
-            find_witness(test, *problem_, limit_, result_);
+            if (fit != nullptr) fit(test, *problem_, limit_, result_);
         } else if (resumed_->guess && !resumed_->guess->parameters.empty()) {
             auto const& guess = *resumed_->guess;
             result_.witness = verify_witness(test, *problem_, guess.parameters, guess.starts);

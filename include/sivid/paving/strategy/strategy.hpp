@@ -50,15 +50,14 @@ enum class search_kind {
     one,  ///< one search of the prior, by runs
     parts ///< many searches of parts, by runs and what contractors say of parts
 };
-/// What is tried before a search. Its contractors by name, for `without`, in their order: shapes,
-/// state equations, interval observers, growing window, guided windows, slower inputs, windows all
-/// along.
+/// What is tried before a search, where the program has it (`complete.hpp`); otherwise nothing is,
+/// and the journal says so. Its contractors by name, for `without`, in their order: shapes, state
+/// equations, interval observers, growing window, guided windows, slower inputs, windows all along.
 [[nodiscard]] SIVID_DECL strategy default_strategy(search_kind of = search_kind::one);
 
 } // namespace sivid
 
 #ifndef SIVID_COMPILED
-#include <sivid/paving/strategy/impl/default_strategy.ipp>
 #include <sivid/paving/strategy/impl/strategy.ipp>
 #endif
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/run/further_runs.hpp>
 #include <sivid/verifier/proof/detail/exclusion_check.hpp>
 
 #include "paving/plain_problem.hpp"

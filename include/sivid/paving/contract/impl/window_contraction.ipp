@@ -10,7 +10,8 @@
 #include <sivid/model/structure/states_seen.hpp>
 #include <sivid/paving/contract/detail/lifted_program.hpp>
 #include <sivid/paving/response/local_response.hpp>
-#include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/run/detail/experiment_run_class.hpp>
+#include <sivid/paving/run/run_parts.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <sivid/paving/contract/detail/weighted_certificate.hpp>
 #include <sivid/paving/response/detail/growing_response.hpp>
-#include <sivid/paving/run/detail/experiment_run_class.hpp>
+#include <sivid/paving/run/detail/continued_run_class.hpp>
 #include <sivid/space/box.hpp>
 
 #include <cstddef>

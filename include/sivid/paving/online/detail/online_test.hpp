@@ -6,6 +6,7 @@
 #include <sivid/paving/judge/detail/response_judgement.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/online/detail/online_region.hpp>
+#include <sivid/paving/run/continued_run.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
-#include <sivid/paving/run/detail/doubleton_run.hpp>
+#include <sivid/paving/run/detail/doubleton_continuation.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #define SIVID_PAVING_RUN_DETAIL_TAYLOR_CONTINUATION_HPP
 
 #include <sivid/enclosure/taylor/parametric_flow.hpp>
-#include <sivid/paving/run/detail/experiment_run_class.hpp>
+#include <sivid/paving/run/detail/continued_run_class.hpp>
 
 #include <algorithm>
 #include <array>

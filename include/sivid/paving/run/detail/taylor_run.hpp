@@ -10,10 +10,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -130,36 +130,35 @@ private:
         tables_;
 };
 
-/// One experiment over boxes of parameters. A box alone goes in scalars: lanes that stand idle cost
-/// as much as those that run.
+/// One experiment over boxes of parameters.
 template <class C>
 class taylor_run final : public experiment_run {
 public:
+    using maker = std::function<std::unique_ptr<experiment_run>()>;
+
     /// @param unknowns, degree  of the polynomials
+    /// @param single  runs a box alone: lanes that stand idle cost as much as those that run;
+    ///                nothing: lanes do
     taylor_run(flow const& f, experiment const& e, record const& samples,
-               run_options const& options, std::size_t unknowns, std::size_t degree)
+               run_options const& options, std::size_t unknowns, std::size_t degree,
+               maker single = nullptr)
         : experiment_(&e),
           samples_(&samples),
-          flow_(&f),
-          options_(options),
-          unknowns_(unknowns),
-          degree_(degree),
-          lanes_(f, options, unknowns, degree) {}
+          lanes_(f, options, unknowns, degree),
+          make_single_(std::move(single)) {}
 
     using experiment_run::operator();
     [[nodiscard]] std::size_t at_once() const override { return lanes_.width; }
 
     std::vector<std::shared_ptr<response const>>
     operator()(box const& initial, std::vector<box> const& parameters) override {
+        if (parameters.size() == 1 && make_single_) {
+            if (!single_) single_ = make_single_();
+            return (*single_)(initial, parameters);
+        }
         std::vector<lane_task> families;
         for (auto const& p : parameters) {
             families.push_back({experiment_, samples_, &initial, &p});
-        }
-        if constexpr (std::is_same_v<C, lanes<8>>) {
-            if (families.size() == 1) {
-                if (!single_) single_.emplace(*flow_, options_, unknowns_, degree_);
-                return (*single_)(families);
-            }
         }
         return lanes_(families);
     }
@@ -167,11 +166,9 @@ public:
 private:
     experiment const* experiment_;
     record const* samples_;
-    flow const* flow_;
-    run_options options_;
-    std::size_t unknowns_, degree_;
     taylor_lanes<C> lanes_;
-    std::optional<taylor_lanes<double>> single_; ///< made when it is first asked for
+    maker make_single_;
+    std::unique_ptr<experiment_run> single_; ///< made when it is first asked for
 };
 
 } // namespace paving_detail

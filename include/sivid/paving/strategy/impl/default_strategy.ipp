@@ -2,7 +2,7 @@
 #ifndef SIVID_PAVING_STRATEGY_IMPL_DEFAULT_STRATEGY_IPP
 #define SIVID_PAVING_STRATEGY_IMPL_DEFAULT_STRATEGY_IPP
 
-#include <sivid/paving/strategy/strategy.hpp>
+#include <sivid/paving/strategy/detail/usual_strategy.hpp>
 
 #include <sivid/paving/strategy/detail/by_shapes.hpp>
 #include <sivid/paving/strategy/detail/by_slower_inputs.hpp>
@@ -70,12 +70,9 @@ inline promise go_all_along(inquiry& asked, double early, bool one) {
     return reaches_less(asked, early);
 }
 
-} // namespace paving_detail
-
 /// Who, the share of the time that is left, when, and whether the search follows a gain. Shares are
 /// upper limits: each ends by itself when it rests.
-SIVID_DECL strategy default_strategy(search_kind of) {
-    using namespace paving_detail;
+SIVID_DECL strategy usual_strategy(search_kind of) {
     bool const one = of == search_kind::one;
     // Runs that reach a quarter of the measurements refute boxes as fast as anything else does.
     double const early = 0.25;
@@ -110,6 +107,8 @@ SIVID_DECL strategy default_strategy(search_kind of) {
         {{along}, 0.8 * pace, [=](inquiry& asked) { return go_all_along(asked, early, one); }},
     }};
 }
+
+} // namespace paving_detail
 
 } // namespace sivid
 

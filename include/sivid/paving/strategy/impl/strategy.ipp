@@ -4,11 +4,13 @@
 
 #include <sivid/paving/strategy/strategy.hpp>
 
+#include <sivid/paving/detail/program_parts.hpp>
 #include <sivid/paving/strategy/inquiry.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,7 +63,27 @@ inline bool ask_in_turn(std::vector<contractor const*> const& by, std::string co
     return gained;
 }
 
+/// Stands for the contractors that a program does not have.
+class contractors_left_out : public contractor {
+public:
+    [[nodiscard]] std::string name() const override { return "fits and contractors"; }
+    [[nodiscard]] std::string obstacle(identification_problem const&) const override {
+        return "this program has none: include <sivid/paving/complete.hpp>, or link to "
+               "sivid::compiled";
+    }
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const&,
+                                      contraction_record&) const override {
+        return asked.left();
+    }
+};
+
 } // namespace paving_detail
+
+SIVID_DECL strategy default_strategy(search_kind of) {
+    auto const usual = paving_detail::parts_of_program().usual_strategy;
+    if (usual != nullptr) return usual(of);
+    return {{{{std::make_shared<paving_detail::contractors_left_out>()}}}};
+}
 
 SIVID_DECL void contract(strategy const& how, inquiry& asked) {
     using outcome = contraction_record::outcome;

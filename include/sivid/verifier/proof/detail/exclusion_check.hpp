@@ -8,6 +8,7 @@
 #include <sivid/paving/response/local_response.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/paving/run/experiment_run.hpp>
+#include <sivid/paving/run/further_runs.hpp>
 #include <sivid/paving/run/plain_run.hpp>
 #include <sivid/paving/search/exclusion_proof.hpp>
 #include <sivid/space/box.hpp>
