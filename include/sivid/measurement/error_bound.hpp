@@ -226,6 +226,8 @@ namespace detail {
 
 /// Residuals whose spread is below so many steps are those of rounding, correlated as they are.
 inline constexpr double explained_steps = 0.6;
+/// A bound is so many times the largest residual, or so many standard deviations.
+inline constexpr double proposed_margin = 1.25, proposed_sigmas = 4;
 
 /// Why residuals are not those of independent errors, in words; nothing if they may be. Notes their
 /// correlation.
@@ -260,6 +262,65 @@ inline constexpr double explained_steps = 0.6;
     return {};
 }
 
+/// @throws std::invalid_argument
+inline void require_readings(std::vector<double> const& times, std::vector<double> const& values) {
+    if (times.size() != values.size())
+        throw std::invalid_argument("propose_error_bound: needs as many values as times" +
+                                    needed_given(times.size(), values.size()));
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (!std::isfinite(times[i]) || !std::isfinite(values[i]) ||
+            (i > 0 && !(times[i - 1] < times[i])))
+            throw std::invalid_argument(
+                "propose_error_bound: needs finite values at increasing times");
+}
+
+/// Of residuals that are not those of independent errors: what they may be, and what is left to do.
+/// @param as_motion  the bound, if all that a freer curve follows is motion
+[[nodiscard]] inline std::string refusal_for(std::string const& doubt,
+                                             error_bound_proposal const& found, double as_motion) {
+    return doubt +
+           ": motion that the samples do not resolve, or errors that last longer than a sample; "
+           "as errors they ask for a bound of at least " +
+           sivid::nearest_text(found.bound, 3) +
+           (as_motion < 0.5 * found.spread * proposed_sigmas
+                ? ", as motion they hide errors of about " + sivid::nearest_text(as_motion, 3)
+                : std::string{", as motion they hide errors of any size below"}) +
+           "; take the bound from the data sheet, or from a record at rest";
+}
+
+/// What a proposal rests on.
+[[nodiscard]] inline std::vector<std::string> assumptions_of(error_bound_proposal const& found) {
+    std::vector<std::string> result{
+        "the error has no part that is slower than seven samples: no offset, drift or wrong scale",
+        found.support < 200 ? "errors of neighbouring samples are independent: so few samples "
+                              "would hardly show if they were not"
+                            : "errors of neighbouring samples are independent: the residuals are "
+                              "not those of errors that last",
+        "the largest error of the record is at most 1.25 times the largest residual that counts, "
+        "or four standard deviations",
+        found.quantum > 0
+            ? "readings are rounded or truncated to the step that was found: at most one step"
+            : "no step was found: the readings are not quantised"};
+    if (found.outliers > 0)
+        result.push_back("the samples that were left out are outliers: the bound does not hold "
+                         "for them, allow for their share");
+    double const by_spread = proposed_sigmas * found.spread;
+    if (proposed_margin * found.largest_residual > 1.5 * std::max(by_spread, found.quantum))
+        result.push_back(
+            "the few samples farthest from their neighbours are errors of the instrument: they set "
+            "the bound; step and four standard deviations alone make " +
+            sivid::nearest_text(found.quantum + by_spread, 3) +
+            ", so state a bound if they are kinks of the motion, as where an input jumps");
+    if (found.correlation > 0.2 + 3 / std::sqrt(static_cast<double>(found.support)) &&
+        found.spread > explained_steps * found.quantum)
+        result.push_back(
+            "neighbouring residuals are somewhat correlated, by " +
+            sivid::nearest_text(found.correlation, 2) +
+            ": that much of their square is motion that the samples do not resolve, or errors "
+            "that last longer than a sample");
+    return result;
+}
+
 } // namespace detail
 
 /// Proposes an error bound from the quantisation step q of the readings and from their residuals
@@ -284,15 +345,8 @@ inline constexpr double explained_steps = 0.6;
 [[nodiscard]] inline error_bound_proposal propose_error_bound(std::vector<double> const& times,
                                                               std::vector<double> const& values) {
     constexpr std::size_t least_support = 20;
-    constexpr double margin = 1.25, sigmas = 4, far = 6;
-    if (times.size() != values.size())
-        throw std::invalid_argument("propose_error_bound: needs as many values as times" +
-                                    needed_given(times.size(), values.size()));
-    for (std::size_t i = 0; i < times.size(); ++i)
-        if (!std::isfinite(times[i]) || !std::isfinite(values[i]) ||
-            (i > 0 && !(times[i - 1] < times[i])))
-            throw std::invalid_argument(
-                "propose_error_bound: needs finite values at increasing times");
+    constexpr double far = 6;
+    detail::require_readings(times, values);
 
     error_bound_proposal result;
     auto const refuse = [&](std::string why) {
@@ -319,59 +373,23 @@ inline constexpr double explained_steps = 0.6;
                       std::to_string(least_support) + " are needed");
     result.spread = fit.spread();
     result.largest_residual = fit.largest();
-    result.bound =
-        result.quantum + std::max(margin * result.largest_residual, sigmas * result.spread);
+    result.bound = result.quantum + std::max(detail::proposed_margin * result.largest_residual,
+                                             detail::proposed_sigmas * result.spread);
     if (!(result.bound > 0) || !std::isfinite(result.bound)) {
         result.bound = 0;
         return refuse("the readings have neither a step nor residuals");
     }
-    auto const doubt = detail::doubt_of(fit, times, values, result);
-    if (scattered || !doubt.empty()) {
+    auto doubt = detail::doubt_of(fit, times, values, result);
+    if (scattered) doubt = "more than 5 % of the samples are far from their neighbours";
+    if (!doubt.empty()) {
         // Motion leaves less the more freely the curve through the neighbours bends.
         detail::local_polynomial<6, 8> const free{times, values, 1, fit.out()};
-        auto const either = sivid::nearest_text(result.bound, 3);
-        double const own = result.quantum + sigmas * free.spread();
+        auto why = detail::refusal_for(doubt, result,
+                                       result.quantum + detail::proposed_sigmas * free.spread());
         result.bound = 0;
-        return refuse(
-            (scattered ? std::string{"more than 5 % of the samples are far from their neighbours"}
-                       : doubt) +
-            ": motion that the samples do not resolve, or errors that last longer than a sample; "
-            "as errors they ask for a bound of at least " +
-            either +
-            (own < 0.5 * result.spread * sigmas
-                 ? ", as motion they hide errors of about " + sivid::nearest_text(own, 3)
-                 : std::string{", as motion they hide errors of any size below"}) +
-            "; take the bound from the data sheet, or from a record at rest");
+        return refuse(std::move(why));
     }
-    result.assumptions = {
-        "the error has no part that is slower than seven samples: no offset, drift or wrong scale",
-        result.support < 200 ? "errors of neighbouring samples are independent: so few samples "
-                               "would hardly show if they were not"
-                             : "errors of neighbouring samples are independent: the residuals are "
-                               "not those of errors that last",
-        "the largest error of the record is at most 1.25 times the largest residual that counts, "
-        "or four standard deviations",
-        result.quantum > 0
-            ? "readings are rounded or truncated to the step that was found: at most one step"
-            : "no step was found: the readings are not quantised"};
-    if (result.outliers > 0)
-        result.assumptions.push_back("the samples that were left out are outliers: the bound does "
-                                     "not hold for them, allow for their share");
-    double const usual = std::max(sigmas * result.spread, result.quantum);
-    if (margin * result.largest_residual > 1.5 * usual) {
-        result.assumptions.push_back(
-            "the few samples farthest from their neighbours are errors of the instrument: they set "
-            "the bound; step and four standard deviations alone make " +
-            sivid::nearest_text(result.quantum + sigmas * result.spread, 3) +
-            ", so state a bound if they are kinks of the motion, as where an input jumps");
-    }
-    if (result.correlation > 0.2 + 3 / std::sqrt(static_cast<double>(result.support)) &&
-        result.spread > detail::explained_steps * result.quantum)
-        result.assumptions.push_back(
-            "neighbouring residuals are somewhat correlated, by " +
-            sivid::nearest_text(result.correlation, 2) +
-            ": that much of their square is motion that the samples do not resolve, or errors "
-            "that last longer than a sample");
+    result.assumptions = detail::assumptions_of(result);
     return result;
 }
 

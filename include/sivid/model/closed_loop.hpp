@@ -117,6 +117,10 @@ private:
     expression add_input(std::string name, std::string unit, signal u);
     /// Whether what is commanded changes. @throws where it cannot be sampled
     [[nodiscard]] bool needs_hold(std::size_t input, node_id command) const;
+    [[nodiscard]] std::vector<std::size_t> keep_inputs(closed_model& result) const;
+    [[nodiscard]] node_id held(std::size_t input, node_id law, closed_model& result) const;
+    void show_slews(std::map<std::size_t, node_id> const& laws,
+                    std::vector<std::size_t> const& place, closed_model& result) const;
 
     recorded_model open_;
     std::size_t states_, inputs_; ///< of the open model

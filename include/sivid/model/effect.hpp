@@ -181,6 +181,14 @@ private:
         return expression(model_->g, model_->g.leaf(op, index));
     }
 
+    void switch_parameters(std::vector<effect> const& effects,
+                           std::vector<std::size_t> const& first, std::vector<bool> const& unseen);
+    /// One of its edits.
+    void apply(effect const& e, effect::edit const& edit, std::size_t first_parameter,
+               std::vector<bool>::reference unseen);
+    void copy_model(recorded_model const& base);
+    void require_memories(std::vector<expression> const& stated) const;
+    void require_starts_and_copies(recorded_model const& base) const;
     void begin(effect const& e, std::size_t first_parameter);
     /// Writes down that an effect names an input.
     void note(std::size_t input) const;

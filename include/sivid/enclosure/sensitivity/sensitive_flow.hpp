@@ -310,7 +310,7 @@ private:
             // A sign of parameters alone never changes in time: it is no kink, but still a jump.
             if (L > 1 && tail_.covers() && !series_.undefined() && !series_.kinked() &&
                 !series_.jumped() && tail_.bound_variations(series_, h, L)) {
-                carry(nullptr, length, L);
+                carry(flow_over_step(nullptr, length, L));
                 return true;
             }
             tube_.expand(from, times, run_.swept_models(), L);
@@ -327,17 +327,20 @@ private:
             if (kinked || jumps) L = 1; // halving would not take the kink away
         }
         if (!w) return false;
-        carry(&*w, length, L);
+        carry(flow_over_step(&*w, length, L));
         return true;
     }
 
+    /// V over a step.
     /// @param w  what `bound` says of the tube; null where `tail_` has bounded V
-    void carry(std::vector<double> const* w, double length, std::size_t L) {
+    /// @param L  its order; `order_` follows the truncation
+    [[nodiscard]] std::vector<entry> flow_over_step(std::vector<double> const* w, double length,
+                                                    std::size_t L) {
         using namespace enclosure_detail;
         auto const n = flow_->states();
         auto const m = columns();
         std::vector<entry> map(n * m);
-        double const power = w ? enclosure_detail::power_of(length, L) : 1;
+        double const power = w ? power_of(length, L) : 1;
         // By columns, each in its own unit: the largest of the rows, in the states' own ranges.
         double worst = 0;
         for (std::size_t c = 0; c < m; ++c) {
@@ -372,6 +375,13 @@ private:
         } else {
             order_ = L;
         }
+        return map;
+    }
+
+    /// @param map  V over the step
+    void carry(std::vector<entry> const& map) {
+        auto const n = flow_->states();
+        auto const m = columns();
         std::vector<entry> next(n * m);
         auto const rows = static_cast<Eigen::Index>(n);
         Eigen::MatrixXd lost = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(m));

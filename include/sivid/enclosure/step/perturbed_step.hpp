@@ -51,6 +51,30 @@ template <class C>
     return result;
 }
 
+/// Of n x n matrices, row by row, to nearest.
+template <class C>
+[[nodiscard]] std::vector<C> matrix_product(std::vector<C> const& x, std::vector<C> const& y,
+                                            std::size_t n) {
+    std::vector<C> z(n * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k < n; ++k) {
+            for (std::size_t j = 0; j < n; ++j) z[i * n + j] += x[i * n + k] * y[k * n + j];
+        }
+    }
+    return z;
+}
+/// The largest sum of a row's moduli, to nearest.
+template <class C>
+[[nodiscard]] C row_norm(std::vector<C> const& y, std::size_t n) {
+    C most{};
+    for (std::size_t i = 0; i < n; ++i) {
+        C row{};
+        for (std::size_t j = 0; j < n; ++j) row += lane_traits<C>::abs(y[i * n + j]);
+        most = lane_traits<C>::max(row, most);
+    }
+    return most;
+}
+
 } // namespace detail
 
 /// Bounds the distance d between a solution of x' = f(t, x) and one of x' = f(t, x) + w(t) with the
@@ -93,11 +117,7 @@ template <class C>
     std::vector<C> d(n), mass(n), term(n), size(n), next(n), bigger(n);
     for (double piece = 0; piece < pieces; ++piece) {
         double const share = piece / pieces;
-        for (std::size_t i = 0; i < n; ++i) {
-            term[i] = d[i];
-            size[i] = d[i];
-            mass[i] = d[i];
-        }
+        term = size = mass = d;
         C last{};
         for (std::size_t k = 1; k <= terms; ++k) {
             C const factor = step * (1 / static_cast<double>(k));
@@ -161,34 +181,17 @@ template <class C>
             if (i != j) metzler[i * n + j] = side_by_side::abs(a[i * n + j]);
         }
     }
-    auto const multiply = [n](std::vector<C> const& x, std::vector<C> const& y) {
-        std::vector<C> z(n * n);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t k = 0; k < n; ++k) {
-                for (std::size_t j = 0; j < n; ++j) z[i * n + j] += x[i * n + k] * y[k * n + j];
-            }
-        }
-        return z;
-    };
     // e^{A step} by ten terms, at a norm of at most 1/16, and its error as a norm of rows.
     std::vector<C> one(n * n);
     for (std::size_t i = 0; i < n; ++i) one[i * n + i] = 1.0;
     auto x = one;
     for (std::size_t k = 10; k >= 1; --k) { // Horner's rule
-        x = multiply(a, x);
+        x = detail::matrix_product(a, x, n);
         C const factor = step * (1 / static_cast<double>(k));
         for (std::size_t i = 0; i < n * n; ++i) x[i] = one[i] + x[i] * factor;
     }
     double const error = 8 * (static_cast<double>(n) + 32) * unit;
-    auto const norm_of = [n](std::vector<C> const& y) {
-        C most{};
-        for (std::size_t i = 0; i < n; ++i) {
-            C row{};
-            for (std::size_t j = 0; j < n; ++j) row += side_by_side::abs(y[i * n + j]);
-            most = side_by_side::max(row, most);
-        }
-        return most * up;
-    };
+    auto const norm_of = [n](std::vector<C> const& y) { return detail::row_norm(y, n) * up; };
     C const size = norm_of(x) + error;
     std::vector<C> d(n), first(n), last(n);
     auto e = one; // e^{A (h - s)} for the pieces from the last one to the first
@@ -211,7 +214,7 @@ template <class C>
             d[i] += sum * up;
         }
         off = (off * size + norm_of(e) * error * 2) * up;
-        e = multiply(e, x);
+        e = detail::matrix_product(e, x, n);
     }
     for (auto& y : d) y = side_by_side::select(known & (y * up < C(1e300)), y * up, C(infinity));
     return d;

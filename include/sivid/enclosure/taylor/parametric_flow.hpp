@@ -109,179 +109,208 @@ void parametric_flow<Model>::guess_tube(C const& h, std::size_t order) {
 }
 
 template <class Model>
-typename parametric_flow<Model>::mask
-parametric_flow<Model>::attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
-                                square& w, mask& jumps) {
-    using namespace enclosure_detail;
-    auto const n = flow_->states();
-    std::size_t const K = order;
-    std::size_t const L = flow_order;
-    C const half = C(0.5);
-    held_.assign(K == 0 ? n : 0, held_state{});
-    if (K > 0) {
+typename parametric_flow<Model>::mask parametric_flow<Model>::attempt(trial& t) {
+    held_.assign(t.smooth() ? 0 : flow_->states(), held_state{});
+    if (t.smooth()) {
         mask kinked = centre_.kinked();
         kinked |= derivative_.kinked();
         kinked |= derivative_.steep();
-        kinked &= trying;
-        meet_kink(kinked);
-        trying = trying & !kinked;
-        if (!side_by_side::any(trying)) return mask{};
+        leave_at_kink(t, t.lanes & kinked);
+        if (!side_by_side::any(t.lanes)) return mask{};
     }
-    C const h = (to - set_.time) * (1 + 4 * polynomial::unit); // not less than the length
-    tails_ = false;
-    if (K > 0 && L > 1 && centre_tail_.covers() && derivative_tail_.covers()) {
-        mask const bounded = bound_tails(h, K, L);
-        if (side_by_side::all(bounded | !trying)) {
-            tails_ = true;
-            trying = carries_well(short_enough(trying, h, K, truncation_, {}), h, L);
-            if (!side_by_side::any(trying)) return mask{};
-            guess_tube(h, K);
-            auto const all = variation_sizes(*flow_, derivative_, n, h, L, 0);
-            for (std::size_t i = 0; i < n; ++i) {
-                C sum = truncation_[i];
-                for (std::size_t c = 0; c < n; ++c) {
-                    sum += (all[i * n + c] + derivative_tail_.variation(i, c)) * set_.reach[c];
-                }
-                tube_box_[i] = widened(path_[i], sum * up);
-            }
-            return trying;
-        }
-    }
-    C power = h; // h^(K+1), h^L, rounded up
-    C flow_power = h;
-    for (std::size_t k = 1; k < K + 1; ++k) power *= h;
-    for (std::size_t k = 1; k < L; ++k) flow_power *= h;
-    power *= up;
-    flow_power *= up;
-    auto const s = within_step(h);
-    auto const times = tube_entry::constant(set_.time) + s;
-    // What the reach becomes during the step, as far as the series knows.
-    auto const all = variation_sizes(*flow_, derivative_, n, h, L, 0);
-    auto const base = variation_sizes(*flow_, derivative_, n, h, L, 1);
-    square last;
-    std::vector<C> carried(n), spread(n);
+    t.h = (t.to - set_.time) * (1 + 4 * polynomial::unit);
+    tails_ = t.smooth() && t.flow_order > 1 && centre_tail_.covers() && derivative_tail_.covers() &&
+             side_by_side::all(bound_tails(t.h, t.order, t.flow_order) | !t.lanes);
+    return tails_ ? prove_by_tails(t) : prove_by_tube(t);
+}
+
+/// Where `bound_tails` holds in all lanes: the tube follows from the series.
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::prove_by_tails(trial& t) {
+    auto const n = flow_->states();
+    t.lanes = carries_well(short_enough(t.lanes, t.h, t.order, truncation_, {}), t.h, t.flow_order);
+    if (!side_by_side::any(t.lanes)) return mask{};
+    guess_tube(t.h, t.order);
+    auto const all =
+        enclosure_detail::variation_sizes(*flow_, derivative_, n, t.h, t.flow_order, 0);
     for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t c = 0; c < n; ++c) carried[i] += all[i * n + c] * set_.reach[c];
+        C sum = truncation_[i];
+        for (std::size_t c = 0; c < n; ++c) {
+            sum += (all[i * n + c] + derivative_tail_.variation(i, c)) * set_.reach[c];
+        }
+        tube_box_[i] = widened(path_[i], sum * up);
     }
-    guess_tube(h, K);
-    C const before = power / h;
-    for (std::size_t i = 0; i < n; ++i) {
-        C const next = K > 0 ? centre_.state(i, K).norm() * before : centre_.state(i, 1).norm() * h;
-        // Room for the truncation that is still accepted, as a second round costs as much as the
-        // first; but not much on the scale of the tube.
-        C const wide = path_[i].spread() * 0.3 + carried[i] * 0.05;
-        C const more =
-            side_by_side::min(allowed(i) * 5.0, side_by_side::max(allowed(i) * 0.1, wide));
-        room_[i] = carried[i] * 1.2 + next + more;
-    }
-    mask proved{};
-    for (int round = 0; round < 3; ++round) {
-        for (std::size_t i = 0; i < n; ++i) tube_box_[i] = widened(path_[i], room_[i]);
-        if (K == 0) hold_states(trying, h, times);
-        tube_.expand(set_.time, times, tube_box_, K + 1);
-        mask undefined = trying & tube_.undefined();
-        if (side_by_side::any(undefined)) {
-            reject(undefined, failure_reason::undefined, half);
-            trying = trying & !undefined;
-        }
-        mask const kinked = trying & tube_.kinked();
-        if (side_by_side::any(kinked)) {
-            meet_kink(kinked);
-            trying = trying & !kinked;
-        }
-        // Without series terms x(h) = x(0) + h f(b) holds for every member, jumps or not. With them
-        // no sign varies here (it would be a kink), and V carries the members as usual.
-        // A lane with a held state goes the same way.
-        jumps = K == 0 ? trying & tube_.jumped() : mask{};
-        for (auto const& state : held_) jumps = jumps | (trying & state.lanes);
-        // So does one where V has no bound.
-        if (K == 0 && side_by_side::any(trying & !jumps)) {
-            tube_.add_variations(L);
-            jumps = jumps | (trying & tube_.steep());
-        }
-        std::vector<C> share(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            auto const& lagrange = tube_.state(i, K + 1);
-            truncation_[i] = lagrange.norm() * power * up;
-            share[i] = K > 0 ? (lagrange.spread() + lagrange.r()) * power
-                             : without_last_variable(lagrange, *shape_).r() * power;
-            if (K == 0) share[i] = side_by_side::select(held_[i].lanes, C(0.0), share[i]);
-        }
-        if (K > 0) trying = short_enough(trying, h, K, share, {});
-        if (!side_by_side::any(trying)) return mask{};
-        last.assign(n * n, C(0.0));
-        w.assign(n * n, C(0.0));
-        for (std::size_t i = 0; i < n; ++i) spread[i] = set_.reach[i];
-        if (side_by_side::any(jumps))
-            trying = short_enough(trying & jumps, h, K, share, {}) | (trying & !jumps);
-        if (side_by_side::any(trying & !jumps)) {
-            if (K > 0) tube_.add_variations(L);
-            mask late = trying & !jumps & tube_.steep();
-            if (L > 1) late = late | (trying & !jumps & tube_.kinked());
-            meet_kink(late);
-            trying = trying & !late;
-            undefined = trying & !jumps & tube_.undefined();
-            if (side_by_side::any(undefined)) {
-                reject(undefined, failure_reason::undefined, half);
-                trying = trying & !undefined;
-            }
-            last = last_variation_sizes(*flow_, tube_, n, flow_power, L);
-            if (K == 0)
-                trying = short_enough(trying & !jumps, h, K, share, last) | (trying & jumps);
-            mask const bounded = bound_variations(base, last, n, 8, trying & !jumps, w);
-            mask const unbounded = trying & !jumps & !bounded;
-            if (side_by_side::any(unbounded)) {
-                square growth = base;
-                for (std::size_t k = 0; k < n * n; ++k) growth[k] += last[k];
-                note_steepest(unbounded, growth);
-                reject(unbounded, failure_reason::minimum_step, half);
-                trying = trying & !unbounded;
-            }
-            for (std::size_t i = 0; i < n; ++i) { // carried + last (1 + w) reach
-                C sum = carried[i];
-                for (std::size_t l = 0; l < n; ++l) {
-                    C inner = set_.reach[l];
-                    for (std::size_t c = 0; c < n; ++c) inner += w[l * n + c] * set_.reach[c];
-                    sum += last[i * n + l] * inner;
-                }
-                spread[i] = side_by_side::select(jumps, spread[i], sum * up);
-            }
-        }
-        proved = trying;
-        std::array<double, width> worst{};
-        for (std::size_t i = 0; i < n; ++i) {
-            C const image = (truncation_[i] + spread[i]) * up;
-            auto inside = image < room_[i];
-            if (K == 0) inside = inside | held_[i].lanes;
-            proved = proved & inside;
-            if (side_by_side::all(inside | !trying)) continue;
-            for (std::size_t l = 0; l < width; ++l) {
-                double const excess = side_by_side::get(image, l) / side_by_side::get(room_[i], l);
-                if (side_by_side::test(inside, l) || excess <= worst[l]) continue;
-                worst[l] = std::isfinite(excess) ? excess : infinity;
-                lanes_[l].why.component = i;
-            }
-        }
-        mask const open = trying & !proved;
+    return t.lanes;
+}
+
+/// A tube b that both images lie strictly inside of, guessed from the series and widened in up to
+/// three rounds.
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::prove_by_tube(trial& t) {
+    auto known = begin_tube(t);
+    for (int round = 0;; ++round) {
+        expand_tube(t, known.times);
+        bound_truncation(t, known);
+        if (!side_by_side::any(t.lanes)) return mask{};
+        bound_spread(t, known);
+        mask const proved = lies_inside(t, known);
+        mask const open = t.lanes & !proved;
         if (!side_by_side::any(open) || round == 2) {
             reject(open, failure_reason::minimum_step, C(0.7));
             return proved;
         }
-        // Rooms of lanes that are proved stay; the next round judges them again.
-        mask finite = open;
-        for (std::size_t i = 0; i < n; ++i) {
-            C const image = (truncation_[i] + spread[i]) * up;
-            auto const grow = open & !(image < room_[i]);
-            room_[i] = side_by_side::select(grow, image * 1.3, room_[i]);
-            finite = finite & (room_[i] < C(1e300));
+        widen_rooms(t, known, open);
+    }
+}
+
+/// The middle of the tube, and the first guess of its `room_`.
+template <class Model>
+typename parametric_flow<Model>::tube_bounds parametric_flow<Model>::begin_tube(trial const& t) {
+    using namespace enclosure_detail;
+    auto const n = flow_->states();
+    std::size_t const K = t.order, L = t.flow_order;
+    C const& h = t.h;
+    tube_bounds known;
+    known.power = known.flow_power = h;
+    for (std::size_t k = 1; k < K + 1; ++k) known.power *= h;
+    for (std::size_t k = 1; k < L; ++k) known.flow_power *= h;
+    known.power *= up;
+    known.flow_power *= up;
+    known.times = tube_entry::constant(set_.time) + within_step(h);
+    known.base = variation_sizes(*flow_, derivative_, n, h, L, 1);
+    auto const all = variation_sizes(*flow_, derivative_, n, h, L, 0);
+    known.carried.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t c = 0; c < n; ++c) known.carried[i] += all[i * n + c] * set_.reach[c];
+    }
+    guess_tube(h, K);
+    C const before = known.power / h;
+    for (std::size_t i = 0; i < n; ++i) {
+        C const next = K > 0 ? centre_.state(i, K).norm() * before : centre_.state(i, 1).norm() * h;
+        // Room for the truncation that is still accepted, as a second round costs as much as the
+        // first; but not much on the scale of the tube.
+        C const wide = path_[i].spread() * 0.3 + known.carried[i] * 0.05;
+        C const more =
+            side_by_side::min(allowed(i) * 5.0, side_by_side::max(allowed(i) * 0.1, wide));
+        room_[i] = known.carried[i] * 1.2 + next + more;
+    }
+    known.share.resize(n);
+    known.spread.resize(n);
+    return known;
+}
+
+/// The series over b, in the lanes where it is defined and has no kink; which lanes V carries.
+template <class Model>
+void parametric_flow<Model>::expand_tube(trial& t, tube_entry const& times) {
+    for (std::size_t i = 0; i < room_.size(); ++i) tube_box_[i] = widened(path_[i], room_[i]);
+    if (!t.smooth()) hold_states(t.lanes, t.h, times);
+    tube_.expand(set_.time, times, tube_box_, t.order + 1);
+    leave(t, t.lanes & tube_.undefined(), failure_reason::undefined, C(0.5));
+    leave_at_kink(t, t.lanes & tube_.kinked());
+    // Without series terms x(h) = x(0) + h f(b) holds for every member, jumps or not. With them no
+    // sign varies here (it would be a kink), and V carries the members as usual.
+    // A lane with a held state goes the same way.
+    t.jumps = t.smooth() ? mask{} : t.lanes & tube_.jumped();
+    for (auto const& state : held_) t.jumps = t.jumps | (t.lanes & state.lanes);
+    // So does one where V has no bound.
+    if (!t.smooth() && side_by_side::any(t.lanes & !t.jumps)) {
+        tube_.add_variations(t.flow_order);
+        t.jumps = t.jumps | (t.lanes & tube_.steep());
+    }
+}
+
+/// \f$ h^{K+1} \|x_{K+1}(b)\| \f$, in the lanes where what of it varies is small enough.
+template <class Model>
+void parametric_flow<Model>::bound_truncation(trial& t, tube_bounds& known) {
+    for (std::size_t i = 0; i < truncation_.size(); ++i) {
+        auto const& lagrange = tube_.state(i, t.order + 1);
+        truncation_[i] = lagrange.norm() * known.power * up;
+        if (t.smooth()) {
+            known.share[i] = (lagrange.spread() + lagrange.r()) * known.power;
+        } else {
+            C const share = without_last_variable(lagrange, *shape_).r() * known.power;
+            known.share[i] = side_by_side::select(held_[i].lanes, C(0.0), share);
         }
-        mask const lost = open & !finite;
-        if (side_by_side::any(lost)) {
-            reject(lost, failure_reason::minimum_step, half);
-            trying = trying & !lost;
+    }
+    if (t.smooth()) t.lanes = short_enough(t.lanes, t.h, t.order, known.share, {});
+}
+
+/// The reach during the step: as it was in lanes that jump, else what a V within W of 1 makes of
+/// it.
+template <class Model>
+void parametric_flow<Model>::bound_spread(trial& t, tube_bounds& known) {
+    auto const n = flow_->states();
+    known.last.assign(n * n, C(0.0));
+    t.w.assign(n * n, C(0.0));
+    known.spread.assign(set_.reach.begin(), set_.reach.end());
+    if (side_by_side::any(t.jumps))
+        t.lanes =
+            short_enough(t.lanes & t.jumps, t.h, t.order, known.share, {}) | (t.lanes & !t.jumps);
+    if (!side_by_side::any(t.lanes & !t.jumps)) return;
+    if (t.smooth()) tube_.add_variations(t.flow_order);
+    mask late = t.lanes & !t.jumps & tube_.steep();
+    if (t.flow_order > 1) late = late | (t.lanes & !t.jumps & tube_.kinked());
+    leave_at_kink(t, late);
+    leave(t, t.lanes & !t.jumps & tube_.undefined(), failure_reason::undefined, C(0.5));
+    known.last =
+        enclosure_detail::last_variation_sizes(*flow_, tube_, n, known.flow_power, t.flow_order);
+    if (!t.smooth())
+        t.lanes = short_enough(t.lanes & !t.jumps, t.h, t.order, known.share, known.last) |
+                  (t.lanes & t.jumps);
+    mask const bounded =
+        enclosure_detail::bound_variations(known.base, known.last, n, 8, t.lanes & !t.jumps, t.w);
+    mask const unbounded = t.lanes & !t.jumps & !bounded;
+    if (side_by_side::any(unbounded)) {
+        square growth = known.base;
+        for (std::size_t k = 0; k < n * n; ++k) growth[k] += known.last[k];
+        note_steepest(unbounded, growth);
+        leave(t, unbounded, failure_reason::minimum_step, C(0.5));
+    }
+    for (std::size_t i = 0; i < n; ++i) { // carried + last (1 + w) reach
+        C sum = known.carried[i];
+        for (std::size_t l = 0; l < n; ++l) {
+            C inner = set_.reach[l];
+            for (std::size_t c = 0; c < n; ++c) inner += t.w[l * n + c] * set_.reach[c];
+            sum += known.last[i * n + l] * inner;
+        }
+        known.spread[i] = side_by_side::select(t.jumps, known.spread[i], sum * up);
+    }
+}
+
+/// The lanes in which the image of the tube lies strictly inside of it. Notes for the others the
+/// state that leaves it by most.
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::lies_inside(trial const& t, tube_bounds const& known) {
+    mask proved = t.lanes;
+    std::array<double, width> worst{};
+    for (std::size_t i = 0; i < room_.size(); ++i) {
+        C const image = known.image(truncation_[i], i);
+        auto inside = image < room_[i];
+        if (!t.smooth()) inside = inside | held_[i].lanes;
+        proved = proved & inside;
+        if (side_by_side::all(inside | !t.lanes)) continue;
+        for (std::size_t l = 0; l < width; ++l) {
+            double const excess = side_by_side::get(image, l) / side_by_side::get(room_[i], l);
+            if (side_by_side::test(inside, l) || excess <= worst[l]) continue;
+            worst[l] = std::isfinite(excess) ? excess : infinity;
+            lanes_[l].why.component = i;
         }
     }
     return proved;
+}
+
+/// For the next round. Rooms of lanes that are proved stay; it judges them again.
+template <class Model>
+void parametric_flow<Model>::widen_rooms(trial& t, tube_bounds const& known, mask open) {
+    mask finite = open;
+    for (std::size_t i = 0; i < room_.size(); ++i) {
+        C const image = known.image(truncation_[i], i);
+        auto const grow = open & !(image < room_[i]);
+        room_[i] = side_by_side::select(grow, image * 1.3, room_[i]);
+        finite = finite & (room_[i] < C(1e300));
+    }
+    leave(t, open & !finite, failure_reason::minimum_step, C(0.5));
 }
 
 template <class Model>
@@ -334,6 +363,51 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::carries_well(mask 
     return trying & !poor;
 }
 
+/// One side of a state that may be held, the lower one as the upper one of a mirror.
+template <class Model>
+struct parametric_flow<Model>::held_side {
+    static constexpr double slack = 1e-12;
+    double sign;       ///< -1: the mirror
+    C start, outer;    ///< U, and the upper end of the tube
+    C low, high;       ///< of the c that are still to be tried
+    mask known{};      ///< the lanes with a bound
+    C end{}, during{}; ///< the least bound, at the end of the step and until then
+
+    held_side(double s, C const& from, C const& above, C const& below)
+        : sign(s), start(from), outer(above), low(below), high(above) {}
+
+    [[nodiscard]] static tube_entry between(C const& below, C const& above) {
+        C const middle = (below + above) * 0.5;
+        C const radius = (above - below) * (0.5 + slack) +
+                         (side_by_side::abs(below) + side_by_side::abs(above)) * slack +
+                         C(polynomial::tiny);
+        return widened(tube_entry::constant(middle), radius);
+    }
+    /// Where the state is at least c, in the tube.
+    [[nodiscard]] tube_entry part_beyond(C const& c) const {
+        return sign > 0 ? between(c, outer) : between(-outer, -c);
+    }
+    /// Takes the bound that one c gives where it is the least, and halves what is to be tried.
+    /// @param rate  of the state on `part_beyond(c)`
+    template <class Bounds>
+    void note(C const& c, Bounds const& rate, C const& h, mask defined) {
+        C const most = sign > 0 ? rate.upper : -rate.lower;
+        C const moved = start + most * h + side_by_side::abs(most * h) * slack;
+        mask const falls = most < C(0.0);
+        C const last = side_by_side::select(falls, side_by_side::max(moved, c),
+                                            side_by_side::max(start, c) + (moved - start) +
+                                                side_by_side::abs(c) * slack);
+        C const until = side_by_side::select(falls, side_by_side::max(start, c), last);
+        mask const good = defined & (until < outer) & ((!known) | (last < end));
+        known = known | good;
+        end = side_by_side::select(good, last, end);
+        during = side_by_side::select(good, until, during);
+        mask const reached = falls & (moved <= c); // a lower c would say more
+        low = side_by_side::select(reached, low, c);
+        high = side_by_side::select(reached, c, high);
+    }
+};
+
 /// Looks for states whose own motion keeps them in a smaller interval than a step of first order
 /// says: the velocity of a body that sticks, or leaves a place where it stuck.
 ///   Let B be the tube, U the upper bound of \f$ x_i \f$ at the begin, c in \f$ B_i \f$, and σ the
@@ -348,76 +422,39 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::carries_well(mask 
 ///        where that promises something
 template <class Model>
 void parametric_flow<Model>::hold_states(mask trying, C const& h, tube_entry const& times) {
-    constexpr double slack = 1e-12;
-    auto const entry = [](C const& low, C const& high) {
-        C const middle = (low + high) * 0.5;
-        C const radius = (high - low) * (0.5 + slack) +
-                         (side_by_side::abs(low) + side_by_side::abs(high)) * slack +
-                         C(polynomial::tiny);
-        return widened(tube_entry::constant(middle), radius);
-    };
     for (std::size_t i = 0; i < held_.size(); ++i) {
         held_[i] = held_state{};
         if (!flow_->sensitive(i, i)) continue;
         tube_entry const whole = tube_box_[i];
         auto const all = rough_bounds(whole);
         auto const range = rough_bounds(set_.centre[i]);
-        C const reach = set_.reach[i] +
-                        (side_by_side::abs(range.lower) + side_by_side::abs(range.upper)) * slack +
-                        C(polynomial::tiny);
-        struct side {
-            double sign; ///< -1: the lower side, seen in a mirror
-            C start, outer, inner;
-            mask known{};    ///< the lanes with a bound
-            C end{};         ///< the least bound at the end of the step
-            C during{};      ///< and until then
-            C low{}, high{}; ///< of the c that are still to be tried
-        };
-        auto const side_of = [&](double sign) {
-            side s{sign, (sign > 0 ? range.upper : -range.lower) + reach,
-                   sign > 0 ? all.upper : -all.lower, sign > 0 ? all.lower : -all.upper};
-            s.low = s.inner;
-            s.high = s.outer;
-            return s;
-        };
-        // Tries one c: keeps the bound where it is the least, and halves what is to be tried.
-        auto const attempt = [&](side& s, C const& c) {
-            tube_box_[i] = s.sign > 0 ? entry(c, s.outer) : entry(-s.outer, -c);
+        C const reach =
+            set_.reach[i] +
+            (side_by_side::abs(range.lower) + side_by_side::abs(range.upper)) * held_side::slack +
+            C(polynomial::tiny);
+        held_side upper(1, range.upper + reach, all.upper, all.lower);
+        held_side lower(-1, -range.lower + reach, -all.lower, -all.upper);
+        auto const improve = [&](held_side& s, C const& c) {
+            tube_box_[i] = s.part_beyond(c);
             tube_.expand(set_.time, times, tube_box_, 1);
-            auto const rate = rough_bounds(tube_.state(i, 1));
-            C const most = s.sign > 0 ? rate.upper : -rate.lower;
-            C const moved = s.start + most * h + side_by_side::abs(most * h) * slack;
-            mask const falls = most < C(0.0);
-            C const end = side_by_side::select(falls, side_by_side::max(moved, c),
-                                               side_by_side::max(s.start, c) + (moved - s.start) +
-                                                   side_by_side::abs(c) * slack);
-            C const during = side_by_side::select(falls, side_by_side::max(s.start, c), end);
-            mask const good =
-                trying & !tube_.undefined() & (during < s.outer) & ((!s.known) | (end < s.end));
-            s.known = s.known | good;
-            s.end = side_by_side::select(good, end, s.end);
-            s.during = side_by_side::select(good, during, s.during);
-            mask const reached = falls & (moved <= c); // a lower c would say more
-            s.low = side_by_side::select(reached, s.low, c);
-            s.high = side_by_side::select(reached, c, s.high);
+            s.note(c, rough_bounds(tube_.state(i, 1)), h, trying & !tube_.undefined());
         };
         tube_.expand(set_.time, times, tube_box_, 1);
         auto const rate = rough_bounds(tube_.state(i, 1));
         C const plain = (range.upper - range.lower) + reach * 2.0 + (rate.upper - rate.lower) * h;
-        side upper = side_of(1), lower = side_of(-1);
-        attempt(upper, upper.start);
-        attempt(lower, lower.start);
+        improve(upper, upper.start);
+        improve(lower, lower.start);
         mask held = upper.known & lower.known & (upper.end + lower.end < plain * 0.7);
         if (side_by_side::any(held)) {
             for (auto* s : {&upper, &lower}) {
-                for (int round = 0; round < 14; ++round) attempt(*s, (s->low + s->high) * 0.5);
+                for (int round = 0; round < 14; ++round) improve(*s, (s->low + s->high) * 0.5);
             }
             held = held & (upper.end + lower.end < plain * 0.5);
         }
         tube_box_[i] = whole;
         if (!side_by_side::any(held)) continue;
         held_[i] = {held, -lower.end, upper.end};
-        tube_box_[i] = select(held, entry(-lower.during, upper.during), whole);
+        tube_box_[i] = select(held, held_side::between(-lower.during, upper.during), whole);
     }
 }
 
@@ -439,127 +476,172 @@ void parametric_flow<Model>::release_states(mask moved, std::vector<polynomial>&
 }
 
 template <class Model>
-void parametric_flow<Model>::accept(mask moved, C const& to, std::size_t order,
-                                    std::size_t flow_order, square const& w, mask jumps) {
-    using namespace enclosure_detail;
+void parametric_flow<Model>::accept(trial const& t) {
     auto const n = flow_->states();
-    C const length = to - set_.time; // off by less than a unit
-    std::vector<C> lost(n);
-    std::vector<polynomial> next(n);
-    std::vector<C> tails(n);
-    std::size_t const sharp = sharp_orders(length, order);
-    bool const sharply = sharp > 0 && expand_sharply(sharp);
-    bool pays = false;
-    std::size_t const top = tails_ ? order : order + 1;
+    mask const moved = t.lanes;
+    C const length = t.to - set_.time; // off by less than a unit
+    auto end = centre_at_end(t, length);
+    auto const added = added_by_last_variation(t, length);
+    if (!side_by_side::all(t.jumps | !moved)) carry_generators(t, length, end.lost);
+    release_states(moved, end.centre, end.lost);
+    if (perturbed_) add_perturbation(t, length, end.lost);
+    for (auto& x : end.lost) x *= up;
+    bool const clamped = is_clamped(t, length);
     for (std::size_t i = 0; i < n; ++i) {
-        polynomial last;
-        if (!tails_) last = without_last_variable(tube_.state(i, order + 1), *shape_);
-        auto const coefficient = [&](std::size_t k) -> polynomial const& {
-            return k <= order ? centre_.state(i, k) : last;
-        };
-        next[i] = at_time(*shape_, coefficient, top, length);
-        if (sharply) {
-            C const rounding = next[i].r();
-            C const beyond = tails_ ? truncation_[i] : C(0.0);
-            tails[i] = sharpen(i, coefficient, top, to, sharp, beyond, next[i]);
-            pays = pays || side_by_side::all(next[i].r() < beyond + rounding * 0.5);
-        } else if (tails_) {
-            next[i] = widened(next[i], truncation_[i]);
-        }
-        lost[i] = side_by_side::select(moved, next[i].r(), C(0.0));
-        next[i].r() = 0.0;
-    }
-    if (sharp > 0) sharp_pays_ = pays;
-    // What V's Lagrange term adds to the reach.
-    std::vector<C> added(n);
-    C flow_power = length;
-    for (std::size_t k = 1; k < flow_order; ++k) flow_power *= length;
-    if (!side_by_side::all(jumps | !moved)) {
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t c = 0; c < n; ++c) {
-                if (!flow_->sensitive(i, c)) continue;
-                added[i] += (tails_ ? derivative_tail_.variation(i, c)
-                                    : tube_.variation(i, c, flow_order).norm() * flow_power) *
-                            set_.reach[c];
-            }
-        }
-    }
-    if (!side_by_side::all(jumps | !moved) && !set_.columns.empty()) {
-        std::vector<column_entry> j(n * n);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t c = 0; c < n; ++c) {
-                if (!flow_->sensitive(i, c)) continue;
-                auto sum = tails_ ? variation_at_end(derivative_, derivative_tail_.variation(i, c),
-                                                     i, c, flow_order, *column_shape_, length)
-                                  : variation_at_end(derivative_,
-                                                     last_variation(*flow_, tube_, w, i, c,
-                                                                    flow_order, *column_shape_),
-                                                     i, c, flow_order, *column_shape_, length);
-                // Lanes that stay, or jump, keep their generators.
-                j[i * n + c] = select(moved & !jumps, std::move(sum),
-                                      column_entry::constant(C(i == c ? 1.0 : 0.0)));
-            }
-        }
-        mask const carried = moved & !jumps;
-        bool const all = side_by_side::all(carried);
-        image_.resize(n);
-        std::vector<unsigned char> present(n);
-        for (auto& g : set_.columns) {
-            for (std::size_t l = 0; l < n; ++l) {
-                present[l] = side_by_side::all(g[l].norm() == C(0.0)) ? 0 : 1;
-            }
-            for (std::size_t i = 0; i < n; ++i) {
-                product_sum<C> sum(image_[i]);
-                for (std::size_t l = 0; l < n; ++l) {
-                    if (present[l] != 0 && flow_->sensitive(i, l)) sum.add(j[i * n + l], g[l]);
-                }
-                sum.finish();
-                if (!all) image_[i] = select(carried, image_[i], g[i]);
-                lost[i] += image_[i].r();
-                image_[i].r() = 0.0;
-            }
-            g.swap(image_);
-        }
-    }
-    release_states(moved, next, lost);
-    if (perturbed_) {
-        auto const all = variation_sizes(*flow_, derivative_, n, length, flow_order, 0);
-        std::vector<C> carried(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            C const own = side_by_side::select(moved, perturbed_->at_end()[i], C(0.0));
-            lost[i] += own;
-            carried[i] = own;
-            for (std::size_t c = 0; c < n; ++c) carried[i] += all[i * n + c] * disturbed_[c];
-        }
-        for (std::size_t i = 0; i < n; ++i) {
-            disturbed_[i] = side_by_side::select(moved, carried[i], disturbed_[i]);
-        }
-    }
-    for (auto& x : lost) x *= up;
-    bool clamped = true;
-    for (std::size_t l = 0; l < width; ++l) {
-        if (!side_by_side::test(moved, l)) continue;
-        double const h = side_by_side::get(length, l);
-        clamped = clamped && (side_by_side::get(to, l) >= flow_->next_knot(time(l)) ||
-                              h >= options_.longest_step() || lanes_[l].held);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-        set_.centre[i] = select(moved, next[i], set_.centre[i]);
-        set_.tail[i] = side_by_side::select(moved, tails[i], set_.tail[i]);
+        set_.centre[i] = select(moved, end.centre[i], set_.centre[i]);
+        set_.tail[i] = side_by_side::select(moved, end.tail[i], set_.tail[i]);
         auto const during =
             perturbed_ ? widened(tube_box_[i], perturbed_->largest()[i]) : tube_box_[i];
         swept_[i] = select(moved, during, swept_[i]);
     }
-    set_.time = side_by_side::select(moved, to, set_.time);
-    set_.reduce(13 * n, lost, running_);
-    set_.append(lost);
+    set_.time = side_by_side::select(moved, t.to, set_.time);
+    set_.reduce(13 * n, end.lost, running_);
+    set_.append(end.lost);
     set_.measure();
-    adapt_flow_order(moved, order, flow_order, added);
-    if (order > 0) adapt_order(moved, length, clamped);
+    adapt_flow_order(moved, t.order, t.flow_order, added);
+    if (t.smooth()) adapt_order(moved, length, clamped);
     for (std::size_t i = 0; i < n && perturbed_; ++i) {
         disturbed_[i] = side_by_side::min(disturbed_[i], set_.reach[i]);
     }
     stale_ = true;
+}
+
+/// \f$ \sum_{k \le K} h^k x_k + h^{K+1} x_{K+1}(b) \f$, in twice the digits where that pays.
+template <class Model>
+typename parametric_flow<Model>::centre_image
+parametric_flow<Model>::centre_at_end(trial const& t, C const& length) {
+    auto const n = flow_->states();
+    centre_image end{std::vector<polynomial>(n), std::vector<C>(n), std::vector<C>(n)};
+    std::size_t const sharp = sharp_orders(length, t.order);
+    bool const sharply = sharp > 0 && expand_sharply(sharp);
+    bool pays = false;
+    std::size_t const top = tails_ ? t.order : t.order + 1;
+    for (std::size_t i = 0; i < n; ++i) {
+        auto& next = end.centre[i];
+        polynomial last;
+        if (!tails_) last = without_last_variable(tube_.state(i, top), *shape_);
+        auto const coefficient = [&](std::size_t k) -> polynomial const& {
+            return k <= t.order ? centre_.state(i, k) : last;
+        };
+        next = at_time(*shape_, coefficient, top, length);
+        if (sharply) {
+            C const rounding = next.r();
+            C const beyond = tails_ ? truncation_[i] : C(0.0);
+            end.tail[i] = sharpen(i, coefficient, top, t.to, sharp, beyond, next);
+            pays = pays || side_by_side::all(next.r() < beyond + rounding * 0.5);
+        } else if (tails_) {
+            next = widened(next, truncation_[i]);
+        }
+        end.lost[i] = side_by_side::select(t.lanes, next.r(), C(0.0));
+        next.r() = 0.0;
+    }
+    if (sharp > 0) sharp_pays_ = pays;
+    return end;
+}
+
+/// What V's Lagrange term adds to the reach; nothing where all lanes jump.
+template <class Model>
+std::vector<typename parametric_flow<Model>::C>
+parametric_flow<Model>::added_by_last_variation(trial const& t, C const& length) const {
+    auto const n = flow_->states();
+    std::vector<C> added(n);
+    if (side_by_side::all(t.jumps | !t.lanes)) return added;
+    C flow_power = length;
+    for (std::size_t k = 1; k < t.flow_order; ++k) flow_power *= length;
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t c = 0; c < n; ++c) {
+            if (!flow_->sensitive(i, c)) continue;
+            added[i] += (tails_ ? derivative_tail_.variation(i, c)
+                                : tube_.variation(i, c, t.flow_order).norm() * flow_power) *
+                        set_.reach[c];
+        }
+    }
+    return added;
+}
+
+/// V at the end of the step; 1 in lanes that stay, or jump: they keep their generators.
+template <class Model>
+std::vector<typename parametric_flow<Model>::column_entry>
+parametric_flow<Model>::flow_at_end(trial const& t, C const& length) const {
+    using namespace enclosure_detail;
+    auto const n = flow_->states();
+    auto const L = t.flow_order;
+    std::vector<column_entry> v(n * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t c = 0; c < n; ++c) {
+            if (!flow_->sensitive(i, c)) continue;
+            auto sum =
+                tails_
+                    ? variation_at_end(derivative_, derivative_tail_.variation(i, c), i, c, L,
+                                       *column_shape_, length)
+                    : variation_at_end(derivative_,
+                                       last_variation(*flow_, tube_, t.w, i, c, L, *column_shape_),
+                                       i, c, L, *column_shape_, length);
+            v[i * n + c] = select(t.lanes & !t.jumps, std::move(sum),
+                                  column_entry::constant(C(i == c ? 1.0 : 0.0)));
+        }
+    }
+    return v;
+}
+
+/// Multiplies the generators by V. What the products lose goes into `lost`.
+template <class Model>
+void parametric_flow<Model>::carry_generators(trial const& t, C const& length,
+                                              std::vector<C>& lost) {
+    if (set_.columns.empty()) return;
+    auto const n = flow_->states();
+    auto const v = flow_at_end(t, length);
+    mask const carried = t.lanes & !t.jumps;
+    bool const all = side_by_side::all(carried);
+    image_.resize(n);
+    std::vector<unsigned char> present(n);
+    for (auto& g : set_.columns) {
+        for (std::size_t l = 0; l < n; ++l) {
+            present[l] = side_by_side::all(g[l].norm() == C(0.0)) ? 0 : 1;
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            product_sum<C> sum(image_[i]);
+            for (std::size_t l = 0; l < n; ++l) {
+                if (present[l] != 0 && flow_->sensitive(i, l)) sum.add(v[i * n + l], g[l]);
+            }
+            sum.finish();
+            if (!all) image_[i] = select(carried, image_[i], g[i]);
+            lost[i] += image_[i].r();
+            image_[i].r() = 0.0;
+        }
+        g.swap(image_);
+    }
+}
+
+/// What uncertain inputs may add goes into new generators.
+template <class Model>
+void parametric_flow<Model>::add_perturbation(trial const& t, C const& length,
+                                              std::vector<C>& lost) {
+    auto const n = flow_->states();
+    auto const all =
+        enclosure_detail::variation_sizes(*flow_, derivative_, n, length, t.flow_order, 0);
+    std::vector<C> carried(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        C const own = side_by_side::select(t.lanes, perturbed_->at_end()[i], C(0.0));
+        lost[i] += own;
+        carried[i] = own;
+        for (std::size_t c = 0; c < n; ++c) carried[i] += all[i * n + c] * disturbed_[c];
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        disturbed_[i] = side_by_side::select(t.lanes, carried[i], disturbed_[i]);
+    }
+}
+
+/// Whether in no lane the tolerance alone has limited the step.
+template <class Model>
+bool parametric_flow<Model>::is_clamped(trial const& t, C const& length) const {
+    for (std::size_t l = 0; l < width; ++l) {
+        if (!side_by_side::test(t.lanes, l)) continue;
+        bool const at_knot = side_by_side::get(t.to, l) >= flow_->next_knot(time(l));
+        bool const longest = side_by_side::get(length, l) >= options_.longest_step();
+        if (!at_knot && !longest && !lanes_[l].held) return false;
+    }
+    return true;
 }
 
 /// The order of V follows what its Lagrange term adds to the reach: that may be a share of the

@@ -121,6 +121,30 @@ private:
         time_ = end;
         value_ = value;
     }
+    /// What a limit may be from the line in the limit: what it is off, and that line itself.
+    [[nodiscard]] double with_line(double off, double slope) const {
+        return (off + std::abs(slope) * spread_) * safe;
+    }
+    struct turn_times {
+        double sooner, soon, late, later;
+    };
+    /// Shortly before and after the gap has become as large as what any limit is off.
+    /// @param clear, clear_at_end  the difference of both at the ends
+    [[nodiscard]] static turn_times around_turn(double begin, double end, double clear,
+                                                double clear_at_end) {
+        double const turn = clear / (clear - clear_at_end); // share of the way
+        double const soon = begin + (end - begin) * (turn * (1 - 1e-6));
+        double const late = begin + (end - begin) * (turn + (1 - turn) * 1e-6);
+        return {soon - std::min(0.05 * (end - soon), 0.5 * (soon - begin)), soon, late,
+                late + std::min(0.05 * (late - begin), 0.5 * (end - late))};
+    }
+    /// To a time on the way, at full speed.
+    void go_on(double t, double way) {
+        by_limit_ += way * (t - time_);
+        off_ = sum(off_, product(spread_, t - time_));
+        value_ += way * middle_ * (t - time_);
+        time_ = t;
+    }
     /// It goes towards u by its limit, and meets it at the end or does not.
     ///   Where the gap is larger than any limit is off, all limits go the same way: what they are
     /// from their line stays as it is. Elsewhere it is what they are off and the line itself.
@@ -137,61 +161,47 @@ private:
         double const rounding = sum(distance(reached, interval(value)), passed_by);
         double const off = sum(sum(off_, product(spread_, passed.upper())), rounding);
         double const slope = by_limit_ + way * mid(passed);
-        double const blurred =
-            (off + std::max(std::abs(by_limit_), std::abs(slope)) * spread_) * safe;
+        double const blurred = with_line(off, std::max(std::abs(by_limit_), std::abs(slope)));
         double const slack = sum(rounding, 64 * unit * (std::abs(slope) + std::abs(end)) * spread_);
         // How far the gap is from what any limit is off: a line.
         double const tight = 16 * unit * (std::abs(value_) + std::abs(value));
         double const gap = way * (mid(u(time_)) - value_);
         double const left = meets ? 0 : way * (mid(there) - value);
         double const clear = gap - off_ - tight, clear_at_end = left - off - tight;
-        double const begin = time_, length = end - time_;
-        auto const at = [&](double t) { return begin + length * t; };
-        auto const go_to = [&](double t) { // on the way
-            by_limit_ += way * (t - time_);
-            off_ = sum(off_, product(spread_, t - time_));
-            value_ += way * middle_ * (t - time_);
-            time_ = t;
-        };
+        double const begin = time_;
+        auto const [sooner, soon, late, later] = around_turn(begin, end, clear, clear_at_end);
         // Of the values in between, which are sums of what is on the way.
         double const ulps =
             4 * unit * (std::abs(value_) + std::abs(value) + middle_ * passed.upper());
         auto const piece = [&](double until, double from, double to) {
             stand(sum(rounding, ulps), way, from, to);
-            if (until < end) go_to(until);
+            if (until < end) go_on(until, way);
         };
         from_line_ = sum(from_line_, slack);
-        double const turn = clear / (clear - clear_at_end); // share of the way
-        double const soon = at(turn * (1 - 1e-6)), late = at(turn + (1 - turn) * 1e-6);
-        double const sooner = soon - std::min(0.05 * (end - soon), 0.5 * (soon - begin));
-        double const later = late + std::min(0.05 * (late - begin), 0.5 * (end - late));
         if (spread_ == 0) { // there is but one limit
             piece(end, off, off);
-            from_line_ = off;
         } else if (clear > 0 && clear_at_end > 0) {
             piece(end, from_line_, from_line_);
         } else if (clear > 0 && begin < sooner && sooner < soon && soon < end) {
             piece(sooner, from_line_, from_line_);
             piece(soon, from_line_, blurred);
             if (meets)
-                crossing_ = {by_limit_, gap + (left - gap) * (soon - begin) / length, from_line_,
-                             way};
+                crossing_ = {by_limit_, gap + (left - gap) * (soon - begin) / (end - begin),
+                             from_line_, way};
             piece(end, blurred, blurred);
-            from_line_ = blurred;
         } else if (clear_at_end > 0 && begin < late && late < later && later < end) {
+            double const since = late - begin;
             double const behind =
                 after_crossing(way, p, off)
-                    .value_or((off_ + spread_ * (late - begin) +
-                               std::abs(by_limit_ + way * (late - begin)) * spread_) *
-                              safe);
+                    .value_or(with_line(off_ + spread_ * since, by_limit_ + way * since));
             from_line_ = std::min(sum(behind, slack), blurred);
             piece(late, blurred, blurred);
             piece(later, blurred, from_line_);
             piece(end, from_line_, from_line_);
         } else {
             piece(end, blurred, blurred);
-            from_line_ = blurred;
         }
+        from_line_ = knots_.back().from_line_at_end;
         by_limit_ = slope;
         off_ = off;
         came_by_ = way;

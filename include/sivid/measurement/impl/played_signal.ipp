@@ -62,6 +62,25 @@ private:
     double side_ = 0;
 };
 
+struct play_knot {
+    double time;
+    interval value;
+    double far; ///< from the straight line to the next one
+    double error;
+};
+
+/// The lines between the knots, with all that the output may be beside them.
+inline sampled_signal lines_through(std::vector<play_knot> const& knots, interpolation kind,
+                                    double spread) {
+    widened_signal all(kind);
+    double before = 0;
+    for (auto const& k : knots) {
+        all.add(k.time, k.value, std::max(before, k.far) + k.error + spread);
+        before = k.far;
+    }
+    return std::move(all).take();
+}
+
 } // namespace measurement_detail
 
 SIVID_DECL played_signal played(sampled_signal const& u, double begin, double end,
@@ -75,13 +94,7 @@ SIVID_DECL played_signal played(sampled_signal const& u, double begin, double en
     auto const grid = measurement_detail::grid_of(u.times(), begin, end);
     auto const value = [&](double t) { return u.value<interval>(u.piece(t), interval(t)); };
 
-    struct knot {
-        double time;
-        interval value;
-        double far; ///< from the straight line to the next one
-        double error;
-    };
-    std::vector<knot> knots;
+    std::vector<measurement_detail::play_knot> knots;
     played_signal result;
     measurement_detail::play p(value(begin), middle);
     double worst = u.error_bound(u.piece(begin), begin);
@@ -116,14 +129,8 @@ SIVID_DECL played_signal played(sampled_signal const& u, double begin, double en
         result.slope_by_width.push_back(p.slope_by_width());
     }
     knots.back().error = std::max(worst, u.error_bound(u.piece(grid.back()), grid.back()));
-    measurement_detail::widened_signal all(u.kind());
-    double before = 0;
-    for (auto const& k : knots) {
-        all.add(k.time, k.value, std::max(before, k.far) + k.error + spread);
-        before = k.far;
-    }
     if (holds) result.slope_by_width.push_back(p.slope_by_width());
-    result.within = std::move(all).take();
+    result.within = measurement_detail::lines_through(knots, u.kind(), spread);
     return result;
 }
 

@@ -46,81 +46,17 @@ public:
     ///                   the others need
     tape(graph const& g, std::vector<node_id> const& outputs,
          std::size_t principal = std::numeric_limits<std::size_t>::max()) {
-        auto const needed = reachable(g, outputs);
-        auto const varies = [&g](node_id i) { return (g.depends(i) & ~on_constant) != 0; };
-        auto const gathered = gathered_nodes(g, needed, outputs, varies);
-        std::vector<std::size_t> slot(g.size(), 0);
+        source const from(g, outputs);
+        slots_ = from.slots;
         for (std::size_t k = 0; k < g.size(); ++k) {
-            if (needed[k] && !gathered[k]) slot[k] = slots_++;
+            if (from.has_slot(k)) add_instruction(from, static_cast<node_id>(k));
         }
-        auto const gather = [&](auto const& self, node_id i, bool minus) -> void {
-            auto const& n = g[i];
-            auto const add = [&](node_id child, bool flipped) {
-                if (gathered[child]) return self(self, child, flipped);
-                terms_.push_back({slot[child], 0, false, flipped, varies(child), false});
-            };
-            switch (n.op) {
-            case operation::neg:
-                return add(n.a, !minus);
-            case operation::add:
-            case operation::sub:
-                add(n.a, minus);
-                return add(n.b, minus != (n.op == operation::sub));
-            default: // a product
-                terms_.push_back({slot[n.a], slot[n.b], true, minus, varies(n.a), varies(n.b)});
-            }
-        };
-        std::vector<std::optional<std::size_t>> tanh_slope_at(g.size());
-        for (std::size_t k = 0; k < g.size(); ++k) {
-            auto const& n = g[static_cast<node_id>(k)];
-            if (needed[k] && n.op == operation::tanh) tanh_slope_at[n.companion] = slot[n.a];
-        }
-        for (std::size_t k = 0; k < g.size(); ++k) {
-            if (!needed[k] || gathered[k]) continue;
-            auto const i = static_cast<node_id>(k);
-            auto const& n = g[i];
-            instruction c;
-            c.tanh_slope_at = tanh_slope_at[k];
-            c.op = n.op;
-            c.target = slot[k];
-            c.index = n.index;
-            if (!is_leaf(n.op)) {
-                c.a = slot[n.a];
-                c.b = slot[n.b];
-                c.companion = slot[n.companion];
-                c.a_varies = varies(n.a);
-                c.b_varies = varies(n.b);
-            }
-            if (is_additive(n.op) && varies(i)) {
-                c.first_term = terms_.size();
-                gather(gather, i, false);
-                c.last_term = terms_.size();
-            }
-            if (n.op == operation::literal) {
-                literals_.push_back(g.value(n));
-                literal_slots_.push_back(c.target);
-            } else if (varies(i)) {
-                varying_.push_back(c);
-            } else {
-                constant_.push_back(c);
-            }
-        }
-        auto const first =
-            reachable(g, {outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                                 principal, outputs.size()))});
-        std::vector<bool> early(slots_, false);
-        for (std::size_t k = 0; k < g.size(); ++k) {
-            if (needed[k] && !gathered[k]) early[slot[k]] = first[k];
-        }
-        auto const is_early = [&](instruction const& i) { return early[i.target]; };
-        for (auto* part : {&constant_, &varying_}) {
-            auto const middle = std::stable_partition(part->begin(), part->end(), is_early);
-            (part == &constant_ ? principal_constant_ : principal_varying_) =
-                static_cast<std::size_t>(middle - part->begin());
-        }
+        auto const end =
+            outputs.begin() + static_cast<std::ptrdiff_t>(std::min(principal, outputs.size()));
+        put_first(from, reachable(g, {outputs.begin(), end}));
         for (auto const i : outputs) {
-            outputs_.push_back(slot[i]);
-            output_varies_.push_back(varies(i));
+            outputs_.push_back(from.slot[i]);
+            output_varies_.push_back(from.varies(i));
         }
         find_histories(principal >= outputs.size() ? 0 : principal);
     }
@@ -176,6 +112,93 @@ private:
                         (is_additive(op) || op == operation::mul);
         }
         return result;
+    }
+
+    /// A graph, and which of its nodes have slots.
+    struct source {
+        graph const& g;
+        std::vector<bool> needed, gathered;
+        std::vector<std::size_t> slot;
+        std::size_t slots = 0;
+        std::vector<std::optional<std::size_t>> tanh_slope_at;
+
+        source(graph const& from, std::vector<node_id> const& outputs)
+            : g(from),
+              needed(reachable(from, outputs)),
+              slot(from.size(), 0),
+              tanh_slope_at(from.size()) {
+            gathered = gathered_nodes(g, needed, outputs, [this](node_id i) { return varies(i); });
+            for (std::size_t k = 0; k < g.size(); ++k) {
+                if (has_slot(k)) slot[k] = slots++;
+            }
+            for (std::size_t k = 0; k < g.size(); ++k) {
+                auto const& n = g[static_cast<node_id>(k)];
+                if (needed[k] && n.op == operation::tanh) tanh_slope_at[n.companion] = slot[n.a];
+            }
+        }
+        [[nodiscard]] bool varies(node_id i) const { return (g.depends(i) & ~on_constant) != 0; }
+        [[nodiscard]] bool has_slot(std::size_t k) const { return needed[k] && !gathered[k]; }
+    };
+
+    void add_instruction(source const& from, node_id i) {
+        auto const& n = from.g[i];
+        instruction c;
+        c.tanh_slope_at = from.tanh_slope_at[i];
+        c.op = n.op;
+        c.target = from.slot[i];
+        c.index = n.index;
+        if (!is_leaf(n.op)) {
+            c.a = from.slot[n.a];
+            c.b = from.slot[n.b];
+            c.companion = from.slot[n.companion];
+            c.a_varies = from.varies(n.a);
+            c.b_varies = from.varies(n.b);
+        }
+        if (is_additive(n.op) && from.varies(i)) {
+            c.first_term = terms_.size();
+            gather(from, i, false);
+            c.last_term = terms_.size();
+        }
+        if (n.op == operation::literal) {
+            literals_.push_back(from.g.value(n));
+            literal_slots_.push_back(c.target);
+        } else if (from.varies(i)) {
+            varying_.push_back(c);
+        } else {
+            constant_.push_back(c);
+        }
+    }
+    /// The terms of a sum, or a product that is one.
+    void gather(source const& from, node_id i, bool minus) {
+        auto const& n = from.g[i];
+        auto const add = [&](node_id child, bool flipped) {
+            if (from.gathered[child]) return gather(from, child, flipped);
+            terms_.push_back({from.slot[child], 0, false, flipped, from.varies(child), false});
+        };
+        switch (n.op) {
+        case operation::neg:
+            return add(n.a, !minus);
+        case operation::add:
+        case operation::sub:
+            add(n.a, minus);
+            return add(n.b, minus != (n.op == operation::sub));
+        default: // a product
+            terms_.push_back(
+                {from.slot[n.a], from.slot[n.b], true, minus, from.varies(n.a), from.varies(n.b)});
+        }
+    }
+    /// What the principal outputs need goes in front of the rest.
+    void put_first(source const& from, std::vector<bool> const& first) {
+        std::vector<bool> early(slots_, false);
+        for (std::size_t k = 0; k < first.size(); ++k) {
+            if (from.has_slot(k)) early[from.slot[k]] = first[k];
+        }
+        auto const is_early = [&](instruction const& i) { return early[i.target]; };
+        for (auto* part : {&constant_, &varying_}) {
+            auto const middle = std::stable_partition(part->begin(), part->end(), is_early);
+            (part == &constant_ ? principal_constant_ : principal_varying_) =
+                static_cast<std::size_t>(middle - part->begin());
+        }
     }
 
     void find_histories(std::size_t first_kept_output) {

@@ -21,6 +21,17 @@ inline std::optional<double> only_value(signal const& s) {
     return *low;
 }
 
+/// Copies rates and outputs at once: what they share stays one node.
+template <class Leaf>
+void copy_outputs(bound_model& m, graph& to, graph const& from, std::vector<node_id> outputs,
+                  std::vector<node_id> const& observe, Leaf const& leaf) {
+    auto const rates = static_cast<std::ptrdiff_t>(outputs.size());
+    outputs.insert(outputs.end(), observe.begin(), observe.end());
+    auto const images = copy_into(to, from, outputs, leaf);
+    m.rate.assign(images.begin(), images.begin() + rates);
+    m.observe.assign(images.begin() + rates, images.end());
+}
+
 /// Makes the states that rest numbers.
 inline void fold_resting_states(bound_model& m, std::size_t inputs, region_of_runs const& runs) {
     // Inputs that change may be anything, as far as is looked here.
@@ -32,24 +43,16 @@ inline void fold_resting_states(bound_model& m, std::size_t inputs, region_of_ru
         if (n.op != operation::state || !rests[i]) return to.leaf(n.op, i);
         return to.constant(runs.starts[i].lower());
     };
-    auto outputs = m.rate;
-    outputs.insert(outputs.end(), m.observe.begin(), m.observe.end());
     graph folded;
-    auto const images = copy_into(folded, m.g, outputs, leaf);
-    auto const split = images.begin() + static_cast<std::ptrdiff_t>(m.rate.size());
-    m.rate.assign(images.begin(), split);
-    m.observe.assign(split, images.end());
+    copy_outputs(m, folded, m.g, m.rate, m.observe, leaf);
     for (std::size_t i = 0; i < rests.size(); ++i) {
         if (rests[i]) m.rate[i] = folded.constant(0.0);
     }
     m.g = std::move(folded);
 }
 
-} // namespace model_detail
-
-SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const& choice,
-                            std::vector<signal> const& inputs,
-                            std::optional<region_of_runs> const& runs) {
+/// @throws std::invalid_argument
+inline void require_bindable(recorded_model const& model, std::vector<signal> const& inputs) {
     auto const& about = model.about;
     if (inputs.size() != about.inputs.size()) {
         throw std::invalid_argument("model '" + about.name + "' has " +
@@ -61,6 +64,45 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
             "model '" + about.name +
             "' has delays, plays or rate limits; fix them and change the signals first");
     }
+}
+
+/// The values of all constants, as far as they are no unknowns.
+inline std::vector<literal> values_of_constants(model_description const& about,
+                                                parameter_choice const& choice) {
+    std::vector<literal> values;
+    for (auto const& c : about.constants) values.push_back(c.nominal);
+    for (auto const& [name, value] : choice.fixed) {
+        if (is_empty(value)) throw std::invalid_argument("constant '" + name + "' has no value");
+        values[index_of(about.constants, name, "constant")] = literal{value, mid(value)};
+    }
+    return values;
+}
+
+/// By states, parameters and uncertain inputs.
+inline void add_derivatives(bound_model& m) {
+    auto const leaves = [&m](operation op, std::size_t count) {
+        std::vector<node_id> result;
+        for (std::size_t i = 0; i < count; ++i) result.push_back(m.g.leaf(op, i));
+        return result;
+    };
+    auto const x = leaves(operation::state, m.state_count());
+    auto const p = leaves(operation::constant, m.parameter_count());
+    m.rate_dx = differentiate(m.g, m.rate, x);
+    m.rate_dp = differentiate(m.g, m.rate, p);
+    m.observe_dx = differentiate(m.g, m.observe, x);
+    m.observe_dp = differentiate(m.g, m.observe, p);
+    std::vector<node_id> u;
+    for (auto const i : m.uncertain) u.push_back(m.g.leaf(operation::input, i));
+    if (!u.empty()) m.rate_du = differentiate(m.g, m.rate, u);
+}
+
+} // namespace model_detail
+
+SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const& choice,
+                            std::vector<signal> const& inputs,
+                            std::optional<region_of_runs> const& runs) {
+    auto const& about = model.about;
+    model_detail::require_bindable(model, inputs);
     bound_model result;
     result.about = about;
     std::vector<int> position(about.constants.size(), -1);
@@ -70,12 +112,7 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
         position[k] = static_cast<int>(result.parameters.size());
         result.parameters.push_back(k);
     }
-    std::vector<literal> values;
-    for (auto const& c : about.constants) values.push_back(c.nominal);
-    for (auto const& [name, value] : choice.fixed) {
-        if (is_empty(value)) throw std::invalid_argument("constant '" + name + "' has no value");
-        values[index_of(about.constants, name, "constant")] = literal{value, mid(value)};
-    }
+    auto const values = model_detail::values_of_constants(about, choice);
     std::vector<std::optional<double>> only(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         if (runs) only[i] = model_detail::only_value(inputs[i]);
@@ -84,8 +121,6 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
         if (is_uncertain(inputs[i])) result.uncertain.push_back(i);
     }
 
-    std::vector<node_id> outputs = model.rate;
-    outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
     auto& g = result.g;
     std::map<std::size_t, node_id> derived; // by constant
     auto const leaf = [&](node const& n, graph& to) -> node_id {
@@ -107,10 +142,7 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
     for (auto const& d : followed(model, choice)) {
         derived[d.constant] = copy_into(g, model.g, {d.value}, leaf).front();
     }
-    auto const images = copy_into(g, model.g, outputs, leaf);
-    auto const split = images.begin() + static_cast<std::ptrdiff_t>(model.rate.size());
-    result.rate.assign(images.begin(), split);
-    result.observe.assign(split, images.end());
+    model_detail::copy_outputs(result, g, model.g, model.rate, model.observe, leaf);
     if (model.stated && !runs) {
         auto& stated = result.stated.emplace();
         for (auto const& row : model.stated->mass)
@@ -118,20 +150,7 @@ SIVID_DECL bound_model bind(recorded_model const& model, parameter_choice const&
         stated.force = copy_into(g, model.g, model.stated->force, leaf);
     }
     if (runs) model_detail::fold_resting_states(result, inputs.size(), *runs);
-
-    std::vector<node_id> x;
-    std::vector<node_id> p;
-    for (std::size_t i = 0; i < result.state_count(); ++i) x.push_back(g.leaf(operation::state, i));
-    for (std::size_t j = 0; j < result.parameter_count(); ++j) {
-        p.push_back(g.leaf(operation::constant, j));
-    }
-    result.rate_dx = differentiate(g, result.rate, x);
-    result.rate_dp = differentiate(g, result.rate, p);
-    result.observe_dx = differentiate(g, result.observe, x);
-    result.observe_dp = differentiate(g, result.observe, p);
-    std::vector<node_id> u;
-    for (auto const i : result.uncertain) u.push_back(g.leaf(operation::input, i));
-    if (!u.empty()) result.rate_du = differentiate(g, result.rate, u);
+    model_detail::add_derivatives(result);
     return result;
 }
 

@@ -259,6 +259,56 @@ SIVID_DECL void closed_loop::command(std::string_view input, expression const& v
         throw std::invalid_argument("control law: '" + std::string(input) + "' is commanded twice");
 }
 
+/// The inputs that are not commanded go over to the closed model.
+/// @returns the place there of each
+SIVID_DECL std::vector<std::size_t> closed_loop::keep_inputs(closed_model& result) const {
+    auto const& from = open_.about.inputs;
+    auto& to = result.model.about.inputs;
+    to.clear();
+    std::vector<std::size_t> place(from.size());
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        if (commands_.count(i) != 0) continue;
+        place[i] = to.size();
+        to.push_back(from[i]);
+        if (i < inputs_) result.kept_inputs.push_back(i);
+    }
+    return place;
+}
+
+/// What is held between samples may be off by its slew times the age of a sample: an input of the
+/// closed model.
+SIVID_DECL node_id closed_loop::held(std::size_t input, node_id law, closed_model& result) const {
+    auto& to = result.model;
+    auto const& own = open_.about.inputs[input];
+    // A little more than the limit times the age: what is proved is proved in decimals.
+    double const error = slews_.at(input) * age_ * (1 + 1e-12);
+    auto const image = to.g.add(law, to.g.leaf(operation::input, to.about.inputs.size()));
+    to.about.inputs.push_back({own.name + ".hold", own.unit});
+    result.own_inputs.push_back(sampled_signal({0}, {0}, interpolation::hold, {error}));
+    return image;
+}
+
+/// How fast the laws that are held change becomes channels.
+SIVID_DECL void closed_loop::show_slews(std::map<std::size_t, node_id> const& laws,
+                                        std::vector<std::size_t> const& place,
+                                        closed_model& result) const {
+    auto& to = result.model;
+    std::map<std::size_t, double> errors; // of sensors, by input of the closed model
+    for (std::size_t k = 0; k < own_inputs_.size(); ++k) {
+        auto const* u = std::get_if<sampled_signal>(&own_inputs_[k]);
+        if (u != nullptr && !u->exact())
+            errors[place[inputs_ + k]] = u->error_bound(u->piece(0), 0);
+    }
+    for (auto const& [input, law] : laws) {
+        auto const& own = open_.about.inputs[input];
+        auto const rate = model_detail::rate_of(to, law, errors);
+        result.slews.push_back(
+            {model_detail::add_channel(to, own.name + ".slew", ".slew",
+                                       rate_unit(own.unit, to.about.time_unit), rate),
+             slews_.at(input)});
+    }
+}
+
 SIVID_DECL closed_model closed_loop::finish() const {
     if (commands_.empty()) throw std::invalid_argument("control law: it commands no input");
     if (open_.has_memory())
@@ -269,16 +319,9 @@ SIVID_DECL closed_model closed_loop::finish() const {
     closed_model result;
     auto& to = result.model;
     to.about = from.about;
-    to.about.inputs.clear();
     result.own_inputs = own_inputs_;
     result.own_states = from.about.states.size() - states_;
-    std::vector<std::size_t> place(from.about.inputs.size());
-    for (std::size_t i = 0; i < place.size(); ++i) {
-        if (commands_.count(i) != 0) continue;
-        place[i] = to.about.inputs.size();
-        to.about.inputs.push_back(from.about.inputs[i]);
-        if (i < inputs_) result.kept_inputs.push_back(i);
-    }
+    auto const place = keep_inputs(result);
     std::vector<node_id> commands;
     for (auto const& [input, value] : commands_) commands.push_back(value);
     auto const kept = [&](node const& n, graph& g) {
@@ -291,18 +334,13 @@ SIVID_DECL closed_model closed_loop::finish() const {
                                         "sensors show that do not see it at once");
         return g.leaf(n.op, place[k]);
     };
-    auto const images = copy_into(to.g, from.g, commands, kept);
-    std::map<std::size_t, node_id> image_of, held;
+    auto const laws = copy_into(to.g, from.g, commands, kept);
+    std::map<std::size_t, node_id> image_of, held_laws;
     for (auto const& [input, value] : commands_) {
-        auto image = images[image_of.size()];
+        auto image = laws[image_of.size()];
         if (needs_hold(input, value)) {
-            auto const& own = from.about.inputs[input];
-            // A little more than the limit times the age: what is proved is proved in decimals.
-            double const error = slews_.at(input) * age_ * (1 + 1e-12);
-            held.emplace(input, image);
-            image = to.g.add(image, to.g.leaf(operation::input, to.about.inputs.size()));
-            to.about.inputs.push_back({own.name + ".hold", own.unit});
-            result.own_inputs.push_back(sampled_signal({0}, {0}, interpolation::hold, {error}));
+            held_laws.emplace(input, image);
+            image = held(input, image, result);
         }
         image_of.emplace(input, image);
     }
@@ -322,20 +360,7 @@ SIVID_DECL closed_model closed_loop::finish() const {
         auto const& own = from.about.inputs[input];
         (void)model_detail::add_channel(to, own.name, ".command", own.unit, image);
     }
-    std::map<std::size_t, double> errors; // of sensors, by input of the closed model
-    for (std::size_t k = 0; k < own_inputs_.size(); ++k) {
-        auto const* u = std::get_if<sampled_signal>(&own_inputs_[k]);
-        if (u != nullptr && !u->exact())
-            errors[place[inputs_ + k]] = u->error_bound(u->piece(0), 0);
-    }
-    for (auto const& [input, law] : held) {
-        auto const& own = from.about.inputs[input];
-        auto const rate = model_detail::rate_of(to, law, errors);
-        result.slews.push_back(
-            {model_detail::add_channel(to, own.name + ".slew", ".slew",
-                                       rate_unit(own.unit, to.about.time_unit), rate),
-             slews_.at(input)});
-    }
+    show_slews(held_laws, place, result);
     return result;
 }
 

@@ -103,6 +103,110 @@ SIVID_DECL recorded_model with(recorded_model const& base, std::vector<effect> e
     return unseen == none ? result : effect_scope::join(base, effects, unseen);
 }
 
+namespace detail {
+/// The constants and inputs that effects bring with them.
+/// @returns the first constant of each effect
+inline std::vector<std::size_t> add_names(recorded_model& to, std::vector<effect> const& effects) {
+    std::vector<std::size_t> first;
+    auto& constants = to.about.constants;
+    for (auto const& e : effects) {
+        first.push_back(constants.size());
+        for (auto const& p : e.parameters) {
+            constants.push_back({e.name + "." + p.name, p.unit_in(to.about),
+                                 literal{enclose(p.neutral), nearest(p.neutral)}});
+        }
+        if (!e.only_in.empty()) to.about.inputs.push_back({e.name, "1"});
+        if (e.wraps) to.about.inputs.push_back({e.name + ".wraps", "1"});
+    }
+    return first;
+}
+} // namespace detail
+
+/// Where its switch is 0 an effect sees its neutral values. With these a state of its own may have
+/// no rate (a lag of no time), so it goes on by others there, and nothing sees it; by the same ones
+/// where it is seen for a time.
+SIVID_DECL void effect_scope::switch_parameters(std::vector<effect> const& effects,
+                                                std::vector<std::size_t> const& first,
+                                                std::vector<bool> const& unseen) {
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+        auto const& e = effects[k];
+        if (e.only_in.empty() || (unseen[k] && e.changes_within())) continue;
+        auto const& on = input(e.name);
+        for (std::size_t j = 0; j < e.parameters.size(); ++j) {
+            auto const value = unseen[k] ? detail::farther_end(e.parameters[j])
+                                         : model_->about.constants[first[k] + j].nominal;
+            expression const off(model_->g, model_->g.constant(value));
+            auto& seen = constants_[first[k] + j];
+            seen = off + on * (seen - off);
+        }
+    }
+}
+
+SIVID_DECL void effect_scope::apply(effect const& e, effect::edit const& edit,
+                                    std::size_t first_parameter,
+                                    std::vector<bool>::reference unseen) {
+    begin(e, first_parameter);
+    if (!edit) return;
+    auto const before = *this;
+    edit(*this);
+    auto const on = switch_of_effect();
+    if (on && (unseen || e.may_leave_traces())) keep_where(before.inputs_[*on], before);
+    bool const remembers =
+        states_.size() > before.states_.size() || inputs_.size() > before.inputs_.size();
+    if (on && remembers) unseen = true;
+}
+
+/// The model itself, on the time, the inputs and the constants that the effects left.
+SIVID_DECL void effect_scope::copy_model(recorded_model const& base) {
+    auto& to = *model_;
+    auto const own = std::move(to.added_states); // of effects
+    copy_equations(to, base, [&](node const& n, graph& g) {
+        auto const k = static_cast<std::size_t>(n.index);
+        if (n.op == operation::constant) return constants_[k].in(g);
+        if (n.op == operation::input) return inputs_[k].in(g);
+        if (n.op == operation::time) return time_.in(g);
+        return same_leaf{}(n, g);
+    });
+    for (std::size_t i = 0; i < base.rate.size(); ++i) rates_[i] = expression(to.g, to.rate[i]);
+    for (auto const y : to.observe) channels_.emplace_back(to.g, y);
+    to.added_states.insert(to.added_states.begin(), own.begin(), own.end());
+    // Relations between constants stay as they are: an effect that alters D alters what the
+    // equations see of D, and A = pi D^2/4 only if it says so.
+    for (auto const& d : base.derived)
+        to.derived.push_back(
+            {d.constant, copy_into(to.g, base.g, {d.value}, same_leaf{}).front(), d.always});
+}
+
+/// @param stated  the constants, before any effect changed what is seen of them
+/// @throws std::invalid_argument  see `with`
+SIVID_DECL void effect_scope::require_memories(std::vector<expression> const& stated) const {
+    auto& model = *model_;
+    for (auto const* all : {&model.input_memory, &model.channel_delays})
+        for (auto const& m : *all)
+            if (constants_[m.constant].in(model.g) != stated[m.constant].in(model.g))
+                throw std::invalid_argument("effect: '" + model.about.constants[m.constant].name +
+                                            "' is a delay or a play: it must stay as it is");
+}
+
+/// @throws std::invalid_argument  see `with`
+SIVID_DECL void effect_scope::require_starts_and_copies(recorded_model const& base) const {
+    auto const& model = *model_;
+    for (auto const& a : model.added_states)
+        if ((model.g.depends(a.at_begin) & (on_state | on_time)) != 0)
+            throw std::invalid_argument("effect: the initial value of state '" +
+                                        model.about.states[a.state].name +
+                                        "' may depend on inputs and constants only");
+    for (auto const& c : base.input_copies) {
+        auto const by = named_by_.find(c.of);
+        if (by == named_by_.end() || named_by_.count(c.copy) != 0) continue;
+        throw std::invalid_argument("effect '" + by->second + "': the model goes over from '" +
+                                    base.about.inputs[c.of].name + "' to '" +
+                                    base.about.inputs[c.copy].name +
+                                    "', which the effect leaves as it is; join both effects at "
+                                    "once");
+    }
+}
+
 SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
                                              std::vector<effect> const& effects,
                                              std::vector<bool>& unseen) {
@@ -111,97 +215,28 @@ SIVID_DECL recorded_model effect_scope::join(recorded_model const& base,
     result.input_memory = base.input_memory;
     result.channel_delays = base.channel_delays;
     result.input_copies = base.input_copies;
-    std::vector<std::size_t> first;
-    auto& constants = result.about.constants;
-    for (auto const& e : effects) {
-        first.push_back(constants.size());
-        for (auto const& p : e.parameters) {
-            constants.push_back({e.name + "." + p.name, p.unit_in(base.about),
-                                 literal{enclose(p.neutral), nearest(p.neutral)}});
-        }
-        if (!e.only_in.empty()) result.about.inputs.push_back({e.name, "1"});
-        if (e.wraps) result.about.inputs.push_back({e.name + ".wraps", "1"});
-    }
+    auto const first = detail::add_names(result, effects);
     effect_scope scope(result);
-    // Where its switch is 0 an effect sees its neutral values. With these a state of its own may
-    // have no rate (a lag of no time), so it goes on by others there, and nothing sees it; by the
-    // same ones where it is seen for a time.
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-        auto const& e = effects[k];
-        if (e.only_in.empty() || (unseen[k] && e.changes_within())) continue;
-        auto const& on = scope.input(e.name);
-        for (std::size_t j = 0; j < e.parameters.size(); ++j) {
-            auto const value =
-                unseen[k] ? detail::farther_end(e.parameters[j]) : constants[first[k] + j].nominal;
-            expression const off(result.g, result.g.constant(value));
-            auto& seen = scope.constants_[first[k] + j];
-            seen = off + on * (seen - off);
-        }
-    }
+    scope.switch_parameters(effects, first, unseen);
     auto const apply_all = [&](effect::edit effect::*stage) {
-        for (std::size_t k = 0; k < effects.size(); ++k) {
-            scope.begin(effects[k], first[k]);
-            if (!(effects[k].*stage)) continue;
-            auto const before = scope;
-            (effects[k].*stage)(scope);
-            auto const on = scope.switch_of_effect();
-            if (on && (unseen[k] || effects[k].may_leave_traces()))
-                scope.keep_where(before.inputs_[*on], before);
-            bool const remembers = scope.states_.size() > before.states_.size() ||
-                                   scope.inputs_.size() > before.inputs_.size();
-            if (on && remembers) unseen[k] = true;
-        }
+        for (std::size_t k = 0; k < effects.size(); ++k)
+            scope.apply(effects[k], effects[k].*stage, first[k], unseen[k]);
     };
     auto const stated = scope.constants_;
     apply_all(&effect::on_inputs);
-
-    // The model itself, on the time, the inputs and the constants that the effects left.
-    auto& g = result.g;
-    auto const own = std::move(result.added_states); // of effects
-    copy_equations(result, base, [&](node const& n, graph& to) {
-        auto const k = static_cast<std::size_t>(n.index);
-        if (n.op == operation::constant) return scope.constants_[k].in(to);
-        if (n.op == operation::input) return scope.inputs_[k].in(to);
-        if (n.op == operation::time) return scope.time_.in(to);
-        return same_leaf{}(n, to);
-    });
-    for (std::size_t i = 0; i < base.rate.size(); ++i)
-        scope.rates_[i] = expression(g, result.rate[i]);
-    for (auto const y : result.observe) scope.channels_.emplace_back(g, y);
-    result.added_states.insert(result.added_states.begin(), own.begin(), own.end());
-    // Relations between constants stay as they are: an effect that alters D alters what the
-    // equations see of D, and A = pi D^2/4 only if it says so.
-    for (auto const& d : base.derived)
-        result.derived.push_back(
-            {d.constant, copy_into(g, base.g, {d.value}, same_leaf{}).front(), d.always});
+    scope.copy_model(base);
     auto const copied = result.rate;
     apply_all(&effect::on_rates);
     apply_all(&effect::on_channels);
+    auto& g = result.g;
     result.rate.clear();
     result.observe.clear();
     for (auto const& e : scope.rates_) result.rate.push_back(e.in(g));
     if (result.rate != copied) result.stated.reset();
     for (auto const& e : scope.channels_) result.observe.push_back(e.in(g));
-    for (auto const* all : {&result.input_memory, &result.channel_delays})
-        for (auto const& m : *all)
-            if (scope.constants_[m.constant].in(g) != stated[m.constant].in(g))
-                throw std::invalid_argument("effect: '" + constants[m.constant].name +
-                                            "' is a delay or a play: it must stay as it is");
+    scope.require_memories(stated);
     start_behind_others(result);
-    for (auto const& a : result.added_states)
-        if ((g.depends(a.at_begin) & (on_state | on_time)) != 0)
-            throw std::invalid_argument("effect: the initial value of state '" +
-                                        result.about.states[a.state].name +
-                                        "' may depend on inputs and constants only");
-    for (auto const& c : base.input_copies) {
-        auto const by = scope.named_by_.find(c.of);
-        if (by == scope.named_by_.end() || scope.named_by_.count(c.copy) != 0) continue;
-        throw std::invalid_argument("effect '" + by->second + "': the model goes over from '" +
-                                    base.about.inputs[c.of].name + "' to '" +
-                                    base.about.inputs[c.copy].name +
-                                    "', which the effect leaves as it is; join both effects at "
-                                    "once");
-    }
+    scope.require_starts_and_copies(base);
     model_detail::require_own_names(result.about);
     return result;
 }

@@ -488,6 +488,18 @@ private:
         first_.divide(a, i, get(slot, 0), result, now_.undefined);
     }
 
+    /// At 0 a root has a value, but no derivative.
+    void root(instruction const& i, std::size_t k, T& result) {
+        accumulator rest;
+        rest.add(get(i.a, k));
+        square(rest, i.target, k, 1, -1);
+        mask edge{};
+        first_.divide(rest.result(), i, get(i.target, 0), result, edge);
+        if (edge == mask{}) return;
+        now_.kinked |= edge;
+        result = arithmetic::select(edge, arithmetic::point(0.0), result);
+    }
+
     void higher(instruction const& i, std::size_t k, T& result) {
         using A = arithmetic;
         auto const a = i.a;
@@ -509,17 +521,8 @@ private:
             square(total, a, k, 0);
             return total.result_into(result);
         }
-        case operation::sqrt: {
-            accumulator rest;
-            rest.add(get(a, k));
-            square(rest, y, k, 1, -1);
-            mask edge{}; // at 0 a root has a value, but no derivative
-            first_.divide(rest.result(), i, get(y, 0), result, edge);
-            if (edge == mask{}) return;
-            now_.kinked |= edge;
-            result = A::select(edge, A::point(0.0), result);
-            return;
-        }
+        case operation::sqrt:
+            return root(i, k, result);
         case operation::exp:
             return mean(a, y, k, k, result);
         case operation::log:

@@ -446,6 +446,15 @@ template <class C>
     return w;
 }
 
+namespace number_detail {
+/// 1/k!, rounded up.
+[[nodiscard]] inline double inverse_factorial_above(std::size_t k) {
+    double result = 1;
+    for (std::size_t j = 2; j <= k; ++j) result /= static_cast<double>(j);
+    return result * (1 + static_cast<double>(k + 3) * std::numeric_limits<double>::epsilon());
+}
+} // namespace number_detail
+
 /// An elementary function by its Taylor polynomial about the centre of s and Lagrange's remainder:
 ///   \f$ f(s) \in \sum_{k \le D} f^{[k]}(s_0) \tilde s^k + f^{[D+1]}(range) \tilde s^{D+1} \f$;
 ///   over wide ranges by `near_minimax`.
@@ -482,17 +491,14 @@ template <class C>
         } else {
             taylor_coefficients(f, traits::point(side_by_side::get(s.c(0), l)), D, y.data(), cut);
             for (std::size_t k = 0; k <= D; ++k) keep(k);
-            double top = 1;
             if (bounded) {
-                for (std::size_t k = 2; k <= D + 1; ++k) top /= static_cast<double>(k);
-                top *= 1 + static_cast<double>(D + 4) * model::unit;
+                side_by_side::put(last, l, number_detail::inverse_factorial_above(D + 1));
             } else {
                 auto const whole = interval(side_by_side::get(values.lower, l),
                                             side_by_side::get(values.upper, l));
                 taylor_coefficients(f, whole, D + 1, y.data(), cut);
-                top = mag(y[D + 1]);
+                side_by_side::put(last, l, mag(y[D + 1]));
             }
-            side_by_side::put(last, l, top);
         }
         if (cut) good = good & !side_by_side::only(l);
     }

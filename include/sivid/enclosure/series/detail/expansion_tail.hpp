@@ -79,54 +79,10 @@ public:
         if (!side_by_side::any(exist)) return exist;
         auto const n = flow_->states();
         auto const m = columns_;
-        auto const& entries = flow_->entries();
-        auto const& program = e.program();
-        // |V_k| h^k, the sums of the last ones of them, and all together.
-        std::vector<scalar> size(L), above(L);
         std::vector<scalar> own(n * m), image(n * m), ends(n * n);
-        scalar const once = h * (up / static_cast<double>(L));
-        scalar const again = h * (up / static_cast<double>(L + 1));
-        for (std::size_t l = 0; l < n; ++l) {
-            for (std::size_t c = 0; c < m; ++c) {
-                if (!flow_->sensitive(l, c)) continue;
-                scalar power = scalar(1.0);
-                for (std::size_t k = 0; k < L; ++k) {
-                    size[k] = e.variation(l, c, k).norm() * power;
-                    power *= h;
-                }
-                above[0] = scalar(0.0); // [k]: the last k
-                for (std::size_t k = 1; k < L; ++k) above[k] = above[k - 1] + size[L - k];
-                scalar const whole = (above[L - 1] + size[0]) * up;
-                for (std::size_t k = 0; k < flow_->state_entries(); ++k) {
-                    auto const& a = entries[k];
-                    if (a.column != l) continue;
-                    auto const slot = program.output(a.output);
-                    scalar sum{};
-                    if (program.output_varies(a.output)) {
-                        // A_a V_b with a <= L - 2, b <= L - 1, a + b >= L - 1.
-                        for (std::size_t j = 0; j + 1 < L; ++j) {
-                            sum += series_.size(slot, j) * above[j + 1];
-                        }
-                        sum += series_.tail(slot) * whole;
-                    } else {
-                        sum += series_.whole(slot) * above[1];
-                    }
-                    own[a.row * m + c] += sum * once;
-                }
-            }
-        }
-        for (std::size_t k = 0; k < flow_->state_entries(); ++k) {
-            auto const& a = entries[k];
-            auto const slot = program.output(a.output);
-            scalar sum = series_.whole(slot);
-            if (program.output_varies(a.output)) sum += series_.tail(slot);
-            ends[a.row * n + a.column] += sum * again;
-        }
-        for (std::size_t k = flow_->state_entries(); k < entries.size() && m > n; ++k) {
-            auto const& b = entries[k]; // by a parameter: of B, only what its coefficients leave
-            if (!program.output_varies(b.output)) continue;
-            own[b.row * m + b.column] += series_.tail(program.output(b.output)) * once;
-        }
+        add_convolutions(e, h, L, own);
+        add_tails(e, h * (up / static_cast<double>(L + 1)), h * (up / static_cast<double>(L)), ends,
+                  own);
         for (std::size_t k = 0; k < n * m; ++k) {
             own[k] = own[k] * up + Entry::tiny;
             variations_[k] = own[k];
@@ -161,6 +117,62 @@ public:
     }
 
 private:
+    /// What the coefficients of A and of V leave of A V beyond order L - 1, divided by L.
+    void add_convolutions(expansion<Entry> const& e, scalar const& h, std::size_t L,
+                          std::vector<scalar>& own) const {
+        auto const& program = e.program();
+        // |V_k| h^k, the sums of the last ones of them, and all together.
+        std::vector<scalar> size(L), above(L);
+        scalar const once = h * (up / static_cast<double>(L));
+        for (std::size_t l = 0; l < flow_->states(); ++l) {
+            for (std::size_t c = 0; c < columns_; ++c) {
+                if (!flow_->sensitive(l, c)) continue;
+                scalar power = scalar(1.0);
+                for (std::size_t k = 0; k < L; ++k) {
+                    size[k] = e.variation(l, c, k).norm() * power;
+                    power *= h;
+                }
+                above[0] = scalar(0.0); // [k]: the last k
+                for (std::size_t k = 1; k < L; ++k) above[k] = above[k - 1] + size[L - k];
+                scalar const whole = (above[L - 1] + size[0]) * up;
+                for (std::size_t k = 0; k < flow_->state_entries(); ++k) {
+                    auto const& a = flow_->entries()[k];
+                    if (a.column != l) continue;
+                    auto const slot = program.output(a.output);
+                    scalar sum{};
+                    if (program.output_varies(a.output)) {
+                        // A_a V_b with a <= L - 2, b <= L - 1, a + b >= L - 1.
+                        for (std::size_t j = 0; j + 1 < L; ++j) {
+                            sum += series_.size(slot, j) * above[j + 1];
+                        }
+                        sum += series_.tail(slot) * whole;
+                    } else {
+                        sum += series_.whole(slot) * above[1];
+                    }
+                    own[a.row * columns_ + c] += sum * once;
+                }
+            }
+        }
+    }
+    /// |A| h, divided by L + 1, and what the coefficients of B leave, by L.
+    void add_tails(expansion<Entry> const& e, scalar const& again, scalar const& once,
+                   std::vector<scalar>& ends, std::vector<scalar>& own) const {
+        auto const n = flow_->states();
+        auto const& entries = flow_->entries();
+        auto const& program = e.program();
+        for (std::size_t k = 0; k < flow_->state_entries(); ++k) {
+            auto const& a = entries[k];
+            auto const slot = program.output(a.output);
+            scalar sum = series_.whole(slot);
+            if (program.output_varies(a.output)) sum += series_.tail(slot);
+            ends[a.row * n + a.column] += sum * again;
+        }
+        for (std::size_t k = flow_->state_entries(); k < entries.size() && columns_ > n; ++k) {
+            auto const& b = entries[k]; // by a parameter
+            if (!program.output_varies(b.output)) continue;
+            own[b.row * columns_ + b.column] += series_.tail(program.output(b.output)) * once;
+        }
+    }
     /// Row i of own + ends |V|, rounded up, with the present bounds of |V|.
     void map_row(std::size_t i, std::vector<scalar> const& own, std::vector<scalar> const& ends,
                  std::vector<scalar>& image) const {

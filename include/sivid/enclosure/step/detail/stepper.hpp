@@ -129,6 +129,60 @@ private:
                                          static_cast<Eigen::Index>(ensemble_->deviation.size()),
                                          HUGE_VAL);
     }
+    /// One search for a step: what its attempts have in common, and what they leave to the next.
+    struct search {
+        doubleton<I> const& set;
+        basic_box<I> const& x; ///< X, its hull
+        double limit;
+        enclosure_failure& why;
+        bool resting;          ///< on a kink, which short steps do not cross
+        double proposed;       ///< first length
+        double h;              ///< length to try
+        bool cut;              ///< by a kink: the length says nothing about smooth steps
+        double until;          ///< end of the last attempt
+        bool smooth = true;    ///< what to try: false: a set-valued step of first order
+        bool unsolved = false; ///< an implicit formula found no solution when it was last tried
+        std::size_t start_order = 0;              ///< of the series at X
+        std::optional<basic_box<I>> undefined_on; ///< in the last attempt
+
+        [[nodiscard]] double end() const { return h >= limit - set.time ? limit : set.time + h; }
+        [[nodiscard]] bool crosses(tube_step<I> const& step) const {
+            return !step.smooth && !resting;
+        }
+        void shorten() { h *= reject_factor; }
+        /// A kink, or a root of 0, lies in the tube: next a set-valued step of first order.
+        void meet_kink() {
+            smooth = false;
+            cut = true;
+        }
+    };
+    [[nodiscard]] search begin_search(doubleton<I> const& set, basic_box<I> const& x, double limit,
+                                      enclosure_failure& why);
+    [[nodiscard]] double shortest(search const& at) const {
+        return enclosure_detail::shortest_step(options_, at.cut && !at.resting);
+    }
+    /// The shortest step that brings the set on: it may touch a root of 0.
+    [[nodiscard]] double shortest_useful(search const& at) const {
+        return start_.steep() ? enclosure_detail::step_off_root(options_) : shortest(at);
+    }
+    [[nodiscard]] bool worth_trying(search const& at) const;
+    [[nodiscard]] tube_step<I> next_step(search const& at) const;
+    [[nodiscard]] bool expand_start(search& at, std::size_t order);
+    [[nodiscard]] bool prove_step(tube_step<I>& step, search& at);
+    [[nodiscard]] bool enclose_roughly(tube_step<I>& step, search& at);
+    [[nodiscard]] basic_box<I> tube_image(tube_step<I> const& step, I const& range);
+    [[nodiscard]] static bool bounded(I const& x) {
+        return traits::mag(x) < std::numeric_limits<double>::max();
+    }
+    [[nodiscard]] static bool contains(basic_box<I> const& b, basic_box<I> const& image);
+    [[nodiscard]] static bool widen(basic_box<I>& b, basic_box<I> const& image,
+                                    enclosure_failure& why);
+    [[nodiscard]] std::vector<double> allowed_while_crossing(tube_step<I>& step, search const& at);
+    [[nodiscard]] bool truncates_little(tube_step<I>& step, search& at);
+    void reduce_truncation(tube_step<I> const& step, search& at, double ratio);
+    [[nodiscard]] bool solve_stages(tube_step<I> const& step, search& at);
+    [[nodiscard]] bool bound_variation_of(tube_step<I>& step, search& at);
+    void learn(search const& at, tube_step<I> const& step);
     [[nodiscard]] std::nullopt_t refuse(enclosure_failure& why, failure_reason reason,
                                         doubleton<I> const& set, double until,
                                         basic_box<I> const& tried) const;
@@ -211,232 +265,308 @@ std::size_t stepper<I>::choose_order(double h, basic_box<I> const& x) const {
 template <class I>
 std::optional<tube_step<I>> stepper<I>::prove(doubleton<I> const& set, double limit,
                                               enclosure_failure& why) {
-    auto const n = flow_->states();
-    double const from = set.time;
     auto const x = set.hull_and_centre();
     size_ = set.largest;
-    for (std::size_t i = 0; i < n; ++i) size_[i] = std::max(size_[i], flow_->small(i));
-    I const begin = traits::point(from);
-    why.time = from;
+    for (std::size_t i = 0; i < x.size(); ++i) size_[i] = std::max(size_[i], flow_->small(i));
+    why.time = set.time;
     if (method_) {
-        std::vector<double> margin(n);
-        for (std::size_t i = 0; i < n; ++i) margin[i] = allowed(x, i);
+        std::vector<double> margin(x.size());
+        for (std::size_t i = 0; i < x.size(); ++i) margin[i] = allowed(x, i);
         if (auto step = method_->prove_long(set, limit, margin,
                                             [this](tube_step<I>& s) { return perturb(s); }))
             return step;
     }
-    centre_.expand(from, begin, point_box<I>(set.centre),
+    centre_.expand(set.time, traits::point(set.time), point_box<I>(set.centre),
                    options_.method ? options_.method->order + 1 : options_.order);
     if (centre_.undefined()) {
-        return refuse(why, failure_reason::undefined, set, from, point_box<I>(set.centre));
+        return refuse(why, failure_reason::undefined, set, set.time, point_box<I>(set.centre));
     }
-    double h = propose(limit, from, x);
-    if (h < enclosure_detail::resting_step(options_)) {
-        // Where the set touches a root of 0, the centre's coefficients say nothing of a step.
-        start_.expand_with_variations(from, begin, x, 1);
-        if (start_.steep()) h = std::min(options_.longest_step(), limit - from);
-    }
-    bool cut = near_ < h; // by a kink: the length says nothing about smooth steps
-    if (cut) h = near_;
-    double const proposed = h;
-    bool const resting = crossing_ >= enclosure_detail::crossing_steps;
-    bool root = false; // the set touches one of 0
-    auto const least = [&] { return enclosure_detail::shortest_step(options_, cut && !resting); };
-    auto const enough = [&] { return root ? enclosure_detail::step_off_root(options_) : least(); };
-    bool smooth = true;
-    bool undefined = false;
-    bool unsolved = false;
-    basic_box<I> tried = x; // where a function was not defined
-    double until = from;
-    std::size_t start_order = 0;
-    for (int attempt = 0; attempt < 60; ++attempt) {
-        double const to = h >= limit - from ? limit : from + h;
-        if (!(to > from)) break;
-        if (h < least() && to < limit) break;
-        until = to;
-        tube_step<I> step;
-        step.from = from;
-        step.to = to;
-        step.order = smooth ? choose_order(h, x) : 1;
-        step.variational_order =
-            std::min(step.order, !smooth                          ? 1
-                                 : options_.variational_order > 0 ? options_.variational_order
-                                 : perturbed_ ? step.order // wide sets even from points
-                                              : std::max<std::size_t>(2, (step.order + 1) / 2));
-        auto const q = step.variational_order;
-        step.smooth = smooth;
-        if (start_order != step.variational_order) {
-            start_order = step.variational_order;
-            start_.expand_with_variations(from, begin, x, start_order);
-        }
-        if (start_.undefined() && !start_.steep())
-            return refuse(why, failure_reason::undefined, set, from, x);
-        root = start_.steep();
-        bool became_rough = smooth && root;
-        I const length = span(from, to);
-        I const range = traits::bounds(0.0, traits::upper(length));
-        I const times = traits::bounds(from, to);
-        // Guess B from the series at X, then let the test widen it.
-        auto b = sum(start_, range, q, coefficients(start_, q));
-        for (std::size_t i = 0; i < n; ++i) {
-            double const room = 0.05 * traits::width(b[i]) + allowed(x, i);
-            b[i] = traits::add(b[i], traits::bounds(-room, room));
-        }
-        bool proved = false;
-        undefined = false;
-        for (int round = 0; round < 4 && !proved && !became_rough; ++round) {
-            tube_.expand(from, times, b, step.order);
-            undefined = tube_.undefined();
-            if (undefined) {
-                tried = b;
-                break;
-            }
-            if (smooth && step.order > 1 && tube_.kinked()) {
-                became_rough = true;
-                break;
-            }
-            lagrange_ = coefficients(tube_, step.order);
-            tube_lagrange_ = coefficients(tube_, q);
-            auto const image = sum(start_, range, q, tube_lagrange_);
-            proved = true;
-            double worst = 0;
-            for (std::size_t i = 0; i < n; ++i) {
-                if (!(traits::mag(image[i]) < std::numeric_limits<double>::max())) {
-                    proved = false;
-                    why.component = i;
-                    round = 4;
-                    break;
-                }
-                if (!traits::subset(image[i], b[i])) {
-                    proved = false;
-                    double const excess = traits::width(image[i]) / traits::width(b[i]);
-                    if (excess > worst) {
-                        worst = excess;
-                        why.component = i;
-                    }
-                    double const room = 0.3 * traits::width(image[i]);
-                    b[i] = traits::hull(b[i], traits::add(image[i], traits::bounds(-room, room)));
-                }
-            }
-            if (proved) step.swept = intersect(image, b);
-        }
-        if (proved && !smooth) { // what the room for the proof adds to a rate, as of a root at 0
-            for (int round = 0; round < 2; ++round) {
-                b = step.swept;
-                tube_.expand(from, times, b, step.order);
-                lagrange_ = tube_lagrange_ = coefficients(tube_, step.order);
-                step.swept = intersect(sum(start_, range, q, tube_lagrange_), b);
-            }
-        }
-        if (became_rough) { // a kink lies in the tube: a set-valued step of first order
-            smooth = false;
-            cut = true;
-            start_order = 0;
-            h = std::min(h, options_.longest_step());
-            continue;
-        }
-        if (!proved) {
-            h *= reject_factor;
-            smooth = true;
-            continue;
-        }
-        // Truncation within the tolerance? At kinks the first-order error is what it is: there the
-        // step only has to be short against the change of the set.
-        double ratio = 0;
-        step.jumps = tube_.jumped();
-        bool const crosses = !smooth && !resting;
-        std::vector<double> crossing(crosses ? n : 0); // what such a step may lose
-        if (crosses) {
-            tube_.add_variations(q);
-            step.jumps = step.jumps || tube_.steep();
-            for (std::size_t i = 0; i < n; ++i) crossing[i] = allowed_at_kink(x, i);
-            for (auto const& e : flow_->entries()) {
-                if (step.jumps || e.column >= n) continue;
-                crossing[e.row] += 0.25 * traits::upper(length) * traits::mag(tube_.jacobian(e)) *
-                                   traits::width(x[e.column]);
-            }
-        }
-        for (std::size_t i = 0; i < n; ++i) {
-            double const error = scaled_radius(lagrange_[i], traits::upper(length), step.order);
-            double const limit_i = smooth    ? allowed(x, i)
-                                   : resting ? 1e3 * allowed(x, i)
-                                             : crossing[i];
-            if (error / limit_i > ratio) {
-                ratio = error / limit_i;
-                why.component = i;
-            }
-        }
-        bool const shortest = h <= 4 * enough() ||
-                              (!smooth && resting && h <= enclosure_detail::resting_step(options_));
-        if (ratio > 1 && !shortest) {
-            if (smooth && !options_.method && step.order < options_.order && ratio < 1e4) {
-                extra_order_ += 2;
-                continue;
-            }
-            double const power = 1.0 / static_cast<double>(step.order);
-            // At a kink the loss may be in proportion to the length, and stay too large.
-            double const shorter =
-                h * std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, smooth ? 0.8 : 0.4);
-            h = smooth ? shorter : std::max(shorter, std::min(h, enough()));
-            if (crosses) { // a shorter step may miss the kink
-                smooth = true;
-                start_order = 0;
-            }
-            continue;
-        }
-        formula_.reset();
-        if (smooth && method_ && method_->is_implicit()) {
-            formula_ = method_->formula(from, set.centre, length);
-            unsolved = !formula_;
-            if (unsolved) {
-                why.component = steepest_rate();
-                h *= reject_factor;
-                continue;
-            }
-        }
-        if (!crosses) tube_.expand_with_variations(from, times, b, q);
-        bool const steep = tube_.steep();
-        step.jumps = step.jumps || steep;
-        undefined = tube_.undefined() && !steep;
-        if (undefined || (smooth && (steep || (q > 1 && tube_.kinked())))) {
-            smooth = undefined;
-            cut = cut || !undefined;
-            if (undefined) tried = b;
-            if (undefined) h *= reject_factor;
-            start_order = 0;
-            continue;
-        }
-        auto variation =
-            steep ? unbounded_variation() : bound_variation(*flow_, tube_, traits::upper(length));
-        if (!variation) {
-            why.component = steepest_rate();
-            h *= reject_factor;
-            continue;
-        }
-        step.variation = std::move(*variation);
-        step.start = set;
-        step.tube = std::move(b);
-        if (!perturb(step)) {
-            h *= reject_factor;
-            continue;
-        }
-        crossing_ = smooth ? 0 : crossing_ + 1;
-        near_ = cut ? 4 * h : HUGE_VAL;
-        // A step that the end of the interval or a kink cut short teaches nothing.
-        if (cut) return step;
-        if (h < proposed) {
-            learned_ = std::max(0.05, learned_ * h / proposed);
-        } else if (h < 0.5 * (limit - from)) {
-            learned_ = std::min(4.0, 1.08 * learned_);
-        }
+    auto at = begin_search(set, x, limit, why);
+    for (int attempt = 0; attempt < 60 && worth_trying(at); ++attempt) {
+        at.until = at.end();
+        auto step = next_step(at);
+        if (!expand_start(at, step.variational_order))
+            return refuse(why, failure_reason::undefined, set, set.time, x);
+        if (!prove_step(step, at)) continue;
+        learn(at, step);
         return step;
     }
-    if (!(until > from)) why.component = estimate(x).second; // too short to be tried
+    if (!(at.until > set.time)) why.component = estimate(x).second; // too short to be tried
     return refuse(why,
-                  undefined  ? failure_reason::undefined
-                  : unsolved ? failure_reason::unsolved_stages
-                             : failure_reason::minimum_step,
-                  set, until, tried);
+                  at.undefined_on ? failure_reason::undefined
+                  : at.unsolved   ? failure_reason::unsolved_stages
+                                  : failure_reason::minimum_step,
+                  set, at.until, at.undefined_on.value_or(x));
+}
+
+template <class I>
+typename stepper<I>::search stepper<I>::begin_search(doubleton<I> const& set, basic_box<I> const& x,
+                                                     double limit, enclosure_failure& why) {
+    double h = propose(limit, set.time, x);
+    if (h < enclosure_detail::resting_step(options_)) {
+        // Where the set touches a root of 0, the centre's coefficients say nothing of a step.
+        start_.expand_with_variations(set.time, traits::point(set.time), x, 1);
+        if (start_.steep()) h = std::min(options_.longest_step(), limit - set.time);
+    }
+    bool const cut = near_ < h;
+    if (cut) h = near_;
+    return {.set = set,
+            .x = x,
+            .limit = limit,
+            .why = why,
+            .resting = crossing_ >= enclosure_detail::crossing_steps,
+            .proposed = h,
+            .h = h,
+            .cut = cut,
+            .until = set.time};
+}
+
+template <class I>
+bool stepper<I>::worth_trying(search const& at) const {
+    double const to = at.end();
+    return to > at.set.time && !(at.h < shortest(at) && to < at.limit);
+}
+
+/// What is to be proved next: from where to where, and by which orders.
+template <class I>
+tube_step<I> stepper<I>::next_step(search const& at) const {
+    tube_step<I> step;
+    step.from = at.set.time;
+    step.to = at.until;
+    step.smooth = at.smooth;
+    step.order = at.smooth ? choose_order(at.h, at.x) : 1;
+    step.variational_order =
+        std::min(step.order, !at.smooth                       ? 1
+                             : options_.variational_order > 0 ? options_.variational_order
+                             : perturbed_ ? step.order // wide sets even from points
+                                          : std::max<std::size_t>(2, (step.order + 1) / 2));
+    return step;
+}
+
+/// The series at X.
+/// @returns whether the rates are defined there
+template <class I>
+bool stepper<I>::expand_start(search& at, std::size_t order) {
+    if (at.start_order != order) {
+        at.start_order = order;
+        start_.expand_with_variations(at.set.time, traits::point(at.set.time), at.x, order);
+    }
+    return !start_.undefined() || start_.steep();
+}
+
+/// The theorem: B exists, the remainder over it is small enough, an implicit formula has a
+/// solution, and V has a bound; then what uncertain inputs add.
+/// @returns whether all of it holds; if not, `at` says what to try next
+template <class I>
+bool stepper<I>::prove_step(tube_step<I>& step, search& at) {
+    if (!enclose_roughly(step, at) || !truncates_little(step, at) || !solve_stages(step, at) ||
+        !bound_variation_of(step, at))
+        return false;
+    step.start = at.set;
+    if (perturb(step)) return true;
+    at.shorten();
+    return false;
+}
+
+/// The a-priori enclosure B of a step, guessed from the series at X and widened until its image
+/// lies in it. Writes `step.tube` and `step.swept`, and leaves in `tube_` the series over B.
+template <class I>
+bool stepper<I>::enclose_roughly(tube_step<I>& step, search& at) {
+    at.undefined_on.reset();
+    if (step.smooth && start_.steep()) {
+        at.meet_kink();
+        return false;
+    }
+    I const times = traits::bounds(step.from, step.to);
+    I const range = traits::bounds(0.0, traits::upper(span(step.from, step.to)));
+    auto const q = step.variational_order;
+    auto& b = step.tube;
+    b = sum(start_, range, q, coefficients(start_, q));
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        double const room = 0.05 * traits::width(b[i]) + allowed(at.x, i);
+        b[i] = traits::add(b[i], traits::bounds(-room, room));
+    }
+    for (int round = 0; round < 4; ++round) {
+        tube_.expand(step.from, times, b, step.order);
+        if (tube_.undefined()) {
+            at.undefined_on = b;
+            break;
+        }
+        if (step.smooth && step.order > 1 && tube_.kinked()) {
+            at.meet_kink();
+            return false;
+        }
+        auto const image = tube_image(step, range);
+        if (contains(b, image)) {
+            step.swept = intersect(image, b);
+            // What the room for the proof adds to a rate, as of a root at 0.
+            for (int again = 0; again < 2 && !step.smooth; ++again) {
+                b = step.swept;
+                tube_.expand(step.from, times, b, step.order);
+                step.swept = intersect(tube_image(step, range), b);
+            }
+            return true;
+        }
+        if (!widen(b, image, at.why)) break;
+    }
+    at.shorten();
+    at.smooth = true;
+    return false;
+}
+
+/// \f$ \sum_{k<q} [0,h]^k x^{[k]}(X) + [0,h]^q x^{[q]}(B) \f$, with the series over B in `tube_`.
+template <class I>
+basic_box<I> stepper<I>::tube_image(tube_step<I> const& step, I const& range) {
+    lagrange_ = coefficients(tube_, step.order);
+    tube_lagrange_ = coefficients(tube_, step.variational_order);
+    return sum(start_, range, step.variational_order, tube_lagrange_);
+}
+
+/// Whether an image is bounded and lies in B: then all solutions exist and stay in it.
+template <class I>
+bool stepper<I>::contains(basic_box<I> const& b, basic_box<I> const& image) {
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        if (!bounded(image[i]) || !traits::subset(image[i], b[i])) return false;
+    }
+    return true;
+}
+
+/// Widens B about an image that leaves it, and notes the state that leaves it by most.
+/// @returns false where the image has no bound
+template <class I>
+bool stepper<I>::widen(basic_box<I>& b, basic_box<I> const& image, enclosure_failure& why) {
+    double worst = 0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        if (!bounded(image[i])) {
+            why.component = i;
+            return false;
+        }
+        if (traits::subset(image[i], b[i])) continue;
+        double const excess = traits::width(image[i]) / traits::width(b[i]);
+        if (excess > worst) {
+            worst = excess;
+            why.component = i;
+        }
+        double const room = 0.3 * traits::width(image[i]);
+        b[i] = traits::hull(b[i], traits::add(image[i], traits::bounds(-room, room)));
+    }
+    return true;
+}
+
+/// What a step that is to cross a kink may lose. At kinks the first-order error is what it is:
+/// there the step only has to be short against the change of the set.
+template <class I>
+std::vector<double> stepper<I>::allowed_while_crossing(tube_step<I>& step, search const& at) {
+    tube_.add_variations(step.variational_order);
+    step.jumps = step.jumps || tube_.steep();
+    auto const n = flow_->states();
+    std::vector<double> crossing(n);
+    for (std::size_t i = 0; i < n; ++i) crossing[i] = allowed_at_kink(at.x, i);
+    double const length = traits::upper(span(step.from, step.to));
+    for (auto const& e : flow_->entries()) {
+        if (step.jumps || e.column >= n) continue;
+        crossing[e.row] +=
+            0.25 * length * traits::mag(tube_.jacobian(e)) * traits::width(at.x[e.column]);
+    }
+    return crossing;
+}
+
+/// Whether the truncation is within the tolerance, or the step too short to be shortened.
+template <class I>
+bool stepper<I>::truncates_little(tube_step<I>& step, search& at) {
+    step.jumps = tube_.jumped();
+    std::vector<double> crossing;
+    if (at.crosses(step)) crossing = allowed_while_crossing(step, at);
+    double const length = traits::upper(span(step.from, step.to));
+    double ratio = 0;
+    for (std::size_t i = 0; i < flow_->states(); ++i) {
+        double const error = scaled_radius(lagrange_[i], length, step.order);
+        double const limit = step.smooth  ? allowed(at.x, i)
+                             : at.resting ? 1e3 * allowed(at.x, i)
+                                          : crossing[i];
+        if (error / limit > ratio) {
+            ratio = error / limit;
+            at.why.component = i;
+        }
+    }
+    bool const short_already =
+        at.h <= 4 * shortest_useful(at) ||
+        (!step.smooth && at.resting && at.h <= enclosure_detail::resting_step(options_));
+    if (!(ratio > 1) || short_already) return true;
+    reduce_truncation(step, at, ratio);
+    return false;
+}
+
+/// The next attempt after a truncation of `ratio` times what is allowed: by a higher order, or
+/// shorter.
+template <class I>
+void stepper<I>::reduce_truncation(tube_step<I> const& step, search& at, double ratio) {
+    if (step.smooth && !options_.method && step.order < options_.order && ratio < 1e4) {
+        extra_order_ += 2;
+        return;
+    }
+    double const power = 1.0 / static_cast<double>(step.order);
+    // At a kink the loss may be in proportion to the length, and stay too large.
+    double const shorter =
+        at.h * std::clamp(0.9 * std::pow(1 / ratio, power), 0.1, step.smooth ? 0.8 : 0.4);
+    at.h = step.smooth ? shorter : std::max(shorter, std::min(at.h, shortest_useful(at)));
+    if (at.crosses(step)) at.smooth = true; // a shorter step may miss the kink
+}
+
+/// Of an implicit method: its formula over the step.
+template <class I>
+bool stepper<I>::solve_stages(tube_step<I> const& step, search& at) {
+    formula_.reset();
+    if (!step.smooth || !method_ || !method_->is_implicit()) return true;
+    formula_ = method_->formula(step.from, at.set.centre, span(step.from, step.to));
+    at.unsolved = !formula_;
+    if (!at.unsolved) return true;
+    at.why.component = steepest_rate();
+    at.shorten();
+    return false;
+}
+
+/// Bounds |V - V(0)| over the step, from the series of V over B.
+template <class I>
+bool stepper<I>::bound_variation_of(tube_step<I>& step, search& at) {
+    auto const q = step.variational_order;
+    if (!at.crosses(step))
+        tube_.expand_with_variations(step.from, traits::bounds(step.from, step.to), step.tube, q);
+    bool const steep = tube_.steep();
+    step.jumps = step.jumps || steep;
+    if (tube_.undefined() && !steep) {
+        at.undefined_on = step.tube;
+        at.shorten();
+        at.smooth = true;
+        return false;
+    }
+    if (step.smooth && (steep || (q > 1 && tube_.kinked()))) {
+        at.meet_kink();
+        return false;
+    }
+    double const length = traits::upper(span(step.from, step.to));
+    auto variation = steep ? unbounded_variation() : bound_variation(*flow_, tube_, length);
+    if (!variation) {
+        at.why.component = steepest_rate();
+        at.shorten();
+        return false;
+    }
+    step.variation = std::move(*variation);
+    return true;
+}
+
+/// What a proved step says of the next ones.
+template <class I>
+void stepper<I>::learn(search const& at, tube_step<I> const& step) {
+    crossing_ = step.smooth ? 0 : crossing_ + 1;
+    near_ = at.cut ? 4 * at.h : HUGE_VAL;
+    // A step that the end of the interval or a kink cut short teaches nothing.
+    if (at.cut) return;
+    if (at.h < at.proposed) {
+        learned_ = std::max(0.05, learned_ * at.h / at.proposed);
+    } else if (at.h < 0.5 * (at.limit - at.set.time)) {
+        learned_ = std::min(4.0, 1.08 * learned_);
+    }
 }
 
 /// Says why, in which state, and what is likely to help.

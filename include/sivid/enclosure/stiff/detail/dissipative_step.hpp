@@ -321,6 +321,13 @@ public:
     map(double from, double to, std::vector<double> const& m, basic_box<I> const& tube);
 
 private:
+    /// The Jacobian by states and parameters as centre and radius, and M.
+    struct jacobian_bounds {
+        Eigen::MatrixXd centre, radius, bound;
+    };
+    [[nodiscard]] std::optional<jacobian_bounds> bound_jacobian(double from, double to,
+                                                                basic_box<I> const& around);
+
     static constexpr std::size_t pieces = 8;
     static constexpr double up = 1 + 1e-12;
 
@@ -482,6 +489,30 @@ dissipative_step<I>::enclose(double from, double to, basic_box<I> const& x,
     return boxes_.find(from, to, x, guess, margin);
 }
 
+/// On all of a box, during a step; nothing where that is not finite.
+template <class I>
+std::optional<typename dissipative_step<I>::jacobian_bounds>
+dissipative_step<I>::bound_jacobian(double from, double to, basic_box<I> const& around) {
+    I const times = traits::bounds(from, to);
+    input_pieces<I> const inputs(*flow_, from, times);
+    jacobian_.evaluate(times, around, inputs);
+    if (jacobian_.undefined() || jacobian_.jumped()) return std::nullopt;
+    auto const size = static_cast<Eigen::Index>(flow_->states() + flow_->parameters());
+    Eigen::MatrixXd const none = Eigen::MatrixXd::Zero(size, size);
+    jacobian_bounds result{none, none, none};
+    for (auto const& e : flow_->entries()) {
+        auto const i = static_cast<Eigen::Index>(e.row);
+        auto const c = static_cast<Eigen::Index>(e.column);
+        I const& a = jacobian_.output(e.output, 0);
+        result.centre(i, c) = traits::mid(a);
+        result.radius(i, c) = traits::mag(traits::sub(a, traits::point(result.centre(i, c))));
+        result.bound(i, c) = i == c ? traits::upper(a) : traits::mag(a);
+    }
+    if (!result.bound.allFinite() || !result.centre.allFinite() || !result.radius.allFinite())
+        return std::nullopt;
+    return result;
+}
+
 template <class I>
 std::optional<step_map<I>> dissipative_step<I>::map(double from, double to,
                                                     std::vector<double> const& m,
@@ -499,25 +530,11 @@ std::optional<step_map<I>> dissipative_step<I>::map(double from, double to,
         if (!d || !d->allFinite()) return std::nullopt;
         defects.push_back(std::move(*d));
     }
-    // The Jacobian by states and parameters on all of it, as centre and radius, and M.
-    I const times = traits::bounds(from, to);
-    input_pieces<I> const inputs(*flow_, from, times);
-    jacobian_.evaluate(times, around, inputs);
-    if (jacobian_.undefined() || jacobian_.jumped()) return std::nullopt;
+    auto const jacobian = bound_jacobian(from, to, around);
+    if (!jacobian) return std::nullopt;
+    auto const& [centre, radius, bound] = *jacobian;
     auto const size = static_cast<Eigen::Index>(columns);
     auto const states = static_cast<Eigen::Index>(n);
-    Eigen::MatrixXd centre = Eigen::MatrixXd::Zero(size, size);
-    Eigen::MatrixXd radius = centre;
-    Eigen::MatrixXd bound = centre;
-    for (auto const& e : flow_->entries()) {
-        auto const i = static_cast<Eigen::Index>(e.row);
-        auto const c = static_cast<Eigen::Index>(e.column);
-        I const& a = jacobian_.output(e.output, 0);
-        centre(i, c) = traits::mid(a);
-        radius(i, c) = traits::mag(traits::sub(a, traits::point(centre(i, c))));
-        bound(i, c) = i == c ? traits::upper(a) : traits::mag(a);
-    }
-    if (!bound.allFinite() || !centre.allFinite() || !radius.allFinite()) return std::nullopt;
     step_map<I> result;
     // [e^{M s}, its integral] over one piece.
     Eigen::MatrixXd steady = Eigen::MatrixXd::Zero(2 * states, 2 * states);

@@ -219,6 +219,40 @@ private:
         C lower{}, upper{}; ///< at the end
     };
 
+    struct held_side;
+
+    /// A step that lanes try together.
+    struct trial {
+        mask lanes;             ///< in which it may still be proved; in the end, is proved
+        std::size_t order;      ///< K; 0 at a kink
+        std::size_t flow_order; ///< L
+        C to{};
+        C h{};        ///< not less than the length
+        square w{};   ///< W, where a tube proves the step
+        mask jumps{}; ///< which no V carries
+
+        [[nodiscard]] bool smooth() const { return order > 0; }
+    };
+    /// What is known of a tube while it is sought.
+    struct tube_bounds {
+        tube_entry times;
+        C power{}, flow_power{}; ///< \f$ h^{K+1}, h^L \f$, rounded up
+        square base;             ///< |V - 1| by orders 1 to L - 1
+        square last;             ///< \f$ h^L |J_L(b)| \f$
+        std::vector<C> carried;  ///< what the series of V make of the reach
+        std::vector<C> spread;   ///< the reach during the step
+        std::vector<C> share;    ///< of the truncation, that is compared with what is allowed
+
+        [[nodiscard]] C image(C const& truncation, std::size_t i) const {
+            return (truncation + spread[i]) * up;
+        }
+    };
+    /// The centre at the end of a step, its tail, and what goes into new generators.
+    struct centre_image {
+        std::vector<polynomial> centre;
+        std::vector<C> tail, lost;
+    };
+
     [[nodiscard]] C allowed(std::size_t i) const {
         auto const& p = set_.centre[i];
         return size(i) * options_.tolerance +
@@ -236,6 +270,13 @@ private:
         return enclosure_detail::shortest_step(
             options_, l.cut && l.crossing < enclosure_detail::crossing_steps);
     }
+    void end_worn_lanes(C const& limit);
+    [[nodiscard]] trial begin_trial(mask able);
+    void end_undefined_lanes(trial& t);
+    void begin_attempts(std::size_t lane, double rest, bool smooth);
+    [[nodiscard]] std::optional<double> target_of(std::size_t lane, double limit, bool smooth);
+    void give_up(std::size_t lane);
+    void learn(std::size_t lane, bool moved, std::size_t order);
     void expand(std::size_t order);
     void expand_flow(std::size_t flow_order);
     [[nodiscard]] std::pair<double, std::size_t> estimate(std::size_t lane) const;
@@ -255,15 +296,28 @@ private:
     [[nodiscard]] mask short_enough(mask trying, C const& h, std::size_t order,
                                     std::vector<C> const& truncation, square const& slopes);
     [[nodiscard]] mask carries_well(mask trying, C const& h, std::size_t flow_order);
-    /// @returns the lanes of `trying` whose step to `to` is proved
-    [[nodiscard]] mask attempt(mask trying, C const& to, std::size_t order, std::size_t flow_order,
-                               square& w, mask& jumps);
+    /// @returns the lanes of a trial in which it is proved
+    [[nodiscard]] mask attempt(trial& t);
+    [[nodiscard]] mask prove_by_tails(trial& t);
+    [[nodiscard]] mask prove_by_tube(trial& t);
+    [[nodiscard]] tube_bounds begin_tube(trial const& t);
+    void expand_tube(trial& t, tube_entry const& times);
+    void bound_truncation(trial& t, tube_bounds& known);
+    void bound_spread(trial& t, tube_bounds& known);
+    [[nodiscard]] mask lies_inside(trial const& t, tube_bounds const& known);
+    void widen_rooms(trial& t, tube_bounds const& known, mask open);
     /// Of a step of first order: bounds of the states that their own rates hold.
     void hold_states(mask trying, C const& h, tube_entry const& times);
     /// Gives them these bounds.
     void release_states(mask moved, std::vector<polynomial>& next, std::vector<C>& lost);
-    void accept(mask moved, C const& to, std::size_t order, std::size_t flow_order, square const& w,
-                mask jumps);
+    /// Carries the set to the end of a step, in the lanes in which it is proved.
+    void accept(trial const& t);
+    [[nodiscard]] centre_image centre_at_end(trial const& t, C const& length);
+    [[nodiscard]] std::vector<C> added_by_last_variation(trial const& t, C const& length) const;
+    [[nodiscard]] std::vector<column_entry> flow_at_end(trial const& t, C const& length) const;
+    void carry_generators(trial const& t, C const& length, std::vector<C>& lost);
+    void add_perturbation(trial const& t, C const& length, std::vector<C>& lost);
+    [[nodiscard]] bool is_clamped(trial const& t, C const& length) const;
     /// How many of the centre's lowest orders are worth twice the digits; a preference.
     [[nodiscard]] std::size_t sharp_orders(C const& length, std::size_t order) const;
     /// Expands the centre of a point in twice the digits, up to `orders` - 1.
@@ -280,7 +334,15 @@ private:
     [[nodiscard]] mask perturb(mask moved, C const& to);
     /// The next attempts of these lanes are of first order.
     void meet_kink(mask lanes);
+    void leave_at_kink(trial& t, mask lanes) {
+        meet_kink(lanes);
+        t.lanes = t.lanes & !lanes;
+    }
     void reject(mask lanes, failure_reason reason, C const& shorten);
+    void leave(trial& t, mask lanes, failure_reason reason, C const& shorten) {
+        reject(lanes, reason, shorten);
+        t.lanes = t.lanes & !lanes;
+    }
     void fail(std::size_t lane, enclosure_failure why) {
         complete(why, set_, lane, *lanes_[lane].unknowns);
         lanes_[lane].failure = why;
@@ -559,39 +621,73 @@ std::optional<domain_edge> parametric_flow<Model>::edge(std::size_t lane, Entry 
 
 template <class Model>
 typename parametric_flow<Model>::mask parametric_flow<Model>::advance(C const& limit) {
-    mask trying = running_ & (set_.time < limit);
+    end_worn_lanes(limit);
+    mask const able = useful(running_ & (set_.time < limit));
+    if (!side_by_side::any(able)) return mask{};
+    auto t = begin_trial(able);
+    if (stale_ || t.smooth() != smooth_) expand(t.order);
+    if (expanded_ != t.flow_order) expand_flow(t.flow_order);
+    end_undefined_lanes(t);
+    t.to = set_.time;
+    for (std::size_t l = 0; l < width; ++l) {
+        if (!side_by_side::test(t.lanes, l)) continue;
+        if (auto const target = target_of(l, side_by_side::get(limit, l), t.smooth())) {
+            side_by_side::put(t.to, l, *target);
+        } else {
+            t.lanes = t.lanes & !side_by_side::only(l);
+        }
+    }
+    if (!side_by_side::any(t.lanes)) return mask{};
+
+    mask const tried = t.lanes;
+    t.lanes = attempt(t);
+    if (perturbed_ && side_by_side::any(t.lanes)) t.lanes = perturb(t.lanes, t.to);
+    for (std::size_t l = 0; l < width; ++l) {
+        if (side_by_side::test(tried, l)) learn(l, side_by_side::test(t.lanes, l), t.order);
+    }
+    if (side_by_side::any(t.lanes)) accept(t);
+    return t.lanes;
+}
+
+/// Ends lanes that have made as many steps as they may; all, if the options say so.
+template <class Model>
+void parametric_flow<Model>::end_worn_lanes(C const& limit) {
+    mask const trying = running_ & (set_.time < limit);
     bool const cancelled = options_.cancelled();
     for (std::size_t l = 0; l < width; ++l) {
         if (!side_by_side::test(trying, l)) continue;
         bool const worn = lanes_[l].attempts == 0 && lanes_[l].steps >= options_.maximum_steps;
-        if (cancelled || worn) {
-            enclosure_failure why;
-            why.reason = cancelled ? failure_reason::cancelled : failure_reason::step_limit;
-            fail(l, why);
-        }
+        if (!cancelled && !worn) continue;
+        enclosure_failure why;
+        why.reason = cancelled ? failure_reason::cancelled : failure_reason::step_limit;
+        fail(l, why);
     }
-    trying = useful(trying & running_);
-    if (!side_by_side::any(trying)) return mask{};
+}
+
+/// Which lanes take their turn, and by which orders.
+template <class Model>
+typename parametric_flow<Model>::trial parametric_flow<Model>::begin_trial(mask able) {
     // Lanes at a kink take their turn with a step of first order, in which any function may jump.
     mask rough{};
     for (std::size_t l = 0; l < width; ++l) {
         if (lanes_[l].rough) rough = rough | side_by_side::only(l);
     }
-    bool const smooth = !side_by_side::any(trying & rough);
-    if (!smooth) trying = trying & rough;
-    std::size_t const order = smooth ? order_ : 0;
     // What uncertain inputs spread is carried by V alone, so V's truncation counts from the first
     // step on; elsewhere its order may grow from step to step.
     std::size_t const least = perturbed_ ? 8 : 1;
     flow_order_ = std::min(std::max(flow_order_, least), std::max<std::size_t>(order_, 1));
-    std::size_t const flow_order = smooth ? flow_order_ : 1;
-    if (stale_ || smooth != smooth_) expand(order);
-    if (expanded_ != flow_order) expand_flow(flow_order);
+    rough = able & rough;
+    if (side_by_side::any(rough)) return {rough, 0, 1};
+    return {able, order_, flow_order_};
+}
 
+/// Ends the lanes whose rates are not defined at the begin of a step.
+template <class Model>
+void parametric_flow<Model>::end_undefined_lanes(trial& t) {
     mask undefined = derivative_.undefined();
     undefined &= !derivative_.steep();
     undefined |= centre_.undefined();
-    undefined &= trying;
+    undefined &= t.lanes;
     for (std::size_t l = 0; l < width && side_by_side::any(undefined); ++l) {
         if (!side_by_side::test(undefined, l)) continue;
         enclosure_failure why;
@@ -599,93 +695,96 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::advance(C const& l
         why.note(edge(l, column_entry::constant(set_.time), around_, column_parameters_));
         fail(l, why);
     }
-    trying = trying & !undefined;
-    C to = set_.time;
-    for (std::size_t l = 0; l < width; ++l) {
-        if (!side_by_side::test(trying, l)) continue;
-        auto& lane = lanes_[l];
-        double const from = time(l);
-        double const end = std::min(side_by_side::get(limit, l), flow_->next_knot(from));
-        double const rest = end - from;
-        if (lane.attempts == 0) {
-            // Where the set touches a root of 0, the centre's coefficients say nothing of a step.
-            bool const steep = smooth && side_by_side::test(derivative_.steep(), l);
-            lane.root = steep;
-            double const length =
-                steep ? std::min(options_.longest_step(), rest) : propose(l, rest);
-            lane.next = smooth && !steep ? gentle(l, length) : length;
-            lane.held = lane.next < length;
-            if (lane.held)
-                lane.next = std::min(lane.next, std::max(0.5 * rest, options_.shortest_step()));
-            lane.cut = lane.near < lane.next;
-            if (lane.cut) lane.next = lane.near;
-            lane.proposed = lane.next;
-            lane.free = lane.next < 0.5 * rest && !lane.held && !lane.cut;
-            lane.tried = infinity;
-            lane.forced = false;
-            lane.why = enclosure_failure{};
-            lane.why.reason = failure_reason::minimum_step;
-        }
-        // Before a lane gives up, it tries the shortest step itself.
-        double const shortest_step = shortest(l);
-        if (lane.next < shortest_step && lane.tried > shortest_step) {
-            lane.next = shortest_step;
-            lane.proposed = std::max(lane.proposed, lane.next);
-            lane.forced = true;
-        }
-        double const target = lane.next >= rest ? end : from + lane.next;
-        lane.tried = lane.next;
-        if (++lane.attempts > 60 || !(target > from) ||
-            (lane.next < shortest_step && target < end)) {
-            if (lane.why.reason == failure_reason::undefined) {
-                C const half = (C(lane.why.until) - set_.time) * 0.5;
-                lane.why.note(edge(
-                    l,
-                    tube_entry::constant(set_.time) +
-                        tube_entry::variable(*tube_shape_, tube_shape_->variables - 1, half, half),
-                    tube_box_, tube_parameters_));
-            }
-            if (lane.attempts == 1)
-                lane.why.component = estimate(l).second; // too short to be tried
-            fail(l, lane.why);
-            trying = trying & !side_by_side::only(l);
-            continue;
-        }
-        lane.why.until = target;
-        side_by_side::put(to, l, target);
-    }
-    if (!side_by_side::any(trying)) return mask{};
+    t.lanes = t.lanes & !undefined;
+}
 
-    square w;
-    mask jumps{};
-    mask moved = attempt(trying, to, order, flow_order, w, jumps);
-    if (perturbed_ && side_by_side::any(moved)) moved = perturb(moved, to);
-    for (std::size_t l = 0; l < width; ++l) {
-        if (!side_by_side::test(trying, l)) continue;
-        auto& lane = lanes_[l];
-        if (!side_by_side::test(moved, l)) {
-            if (!smooth) lane.rough = false; // a shorter step may miss the kink
-            lane.cut = lane.cut || lane.rough;
-            continue;
-        }
-        bool held = false; // such steps lose little, however many they are
-        for (auto const& state : held_) held = held || side_by_side::test(state.lanes, l);
-        lane.crossing = smooth || held ? 0 : lane.crossing + 1;
-        lane.near = lane.cut ? 4 * lane.next : infinity;
-        if (!lane.cut && (lane.next < lane.proposed || lane.free)) {
-            // Aim at a tenth of the allowed truncation; what is too long costs a whole attempt.
-            double const ratio = side_by_side::get(ratio_, l);
-            double const exponent = 1 / static_cast<double>(order + 1);
-            double const better =
-                ratio > 0 ? std::clamp(std::pow(0.1 / ratio, exponent), 0.8, 1.1) : 1.1;
-            lane.learned = std::clamp(lane.learned * lane.next / lane.proposed * better, 0.05, 4.0);
-        }
-        lane.attempts = 0;
-        lane.rough = false;
-        ++lane.steps;
+/// The length of a lane's first attempt.
+/// @param rest  until the next knot, or the end
+template <class Model>
+void parametric_flow<Model>::begin_attempts(std::size_t l, double rest, bool smooth) {
+    auto& lane = lanes_[l];
+    // Where the set touches a root of 0, the centre's coefficients say nothing of a step.
+    lane.root = smooth && side_by_side::test(derivative_.steep(), l);
+    double const length = lane.root ? std::min(options_.longest_step(), rest) : propose(l, rest);
+    lane.next = smooth && !lane.root ? gentle(l, length) : length;
+    lane.held = lane.next < length;
+    if (lane.held) lane.next = std::min(lane.next, std::max(0.5 * rest, options_.shortest_step()));
+    lane.cut = lane.near < lane.next;
+    if (lane.cut) lane.next = lane.near;
+    lane.proposed = lane.next;
+    lane.free = lane.next < 0.5 * rest && !lane.held && !lane.cut;
+    lane.tried = infinity;
+    lane.forced = false;
+    lane.why = enclosure_failure{};
+    lane.why.reason = failure_reason::minimum_step;
+}
+
+/// Where the next attempt of a lane is to end; nothing, and the lane fails, where none is left.
+template <class Model>
+std::optional<double> parametric_flow<Model>::target_of(std::size_t l, double limit, bool smooth) {
+    auto& lane = lanes_[l];
+    double const from = time(l);
+    double const end = std::min(limit, flow_->next_knot(from));
+    double const rest = end - from;
+    if (lane.attempts == 0) begin_attempts(l, rest, smooth);
+    // Before a lane gives up, it tries the shortest step itself.
+    double const shortest_step = shortest(l);
+    if (lane.next < shortest_step && lane.tried > shortest_step) {
+        lane.next = shortest_step;
+        lane.proposed = std::max(lane.proposed, lane.next);
+        lane.forced = true;
     }
-    if (side_by_side::any(moved)) accept(moved, to, order, flow_order, w, jumps);
-    return moved;
+    double const target = lane.next >= rest ? end : from + lane.next;
+    lane.tried = lane.next;
+    bool const too_short = lane.next < shortest_step && target < end;
+    if (++lane.attempts > 60 || !(target > from) || too_short) {
+        give_up(l);
+        return std::nullopt;
+    }
+    lane.why.until = target;
+    return target;
+}
+
+template <class Model>
+void parametric_flow<Model>::give_up(std::size_t l) {
+    auto& lane = lanes_[l];
+    if (lane.why.reason == failure_reason::undefined) {
+        C const half = (C(lane.why.until) - set_.time) * 0.5;
+        lane.why.note(
+            edge(l,
+                 tube_entry::constant(set_.time) +
+                     tube_entry::variable(*tube_shape_, tube_shape_->variables - 1, half, half),
+                 tube_box_, tube_parameters_));
+    }
+    if (lane.attempts == 1) lane.why.component = estimate(l).second; // too short to be tried
+    fail(l, lane.why);
+}
+
+/// What an attempt says of a lane's next ones.
+template <class Model>
+void parametric_flow<Model>::learn(std::size_t l, bool moved, std::size_t order) {
+    auto& lane = lanes_[l];
+    bool const smooth = order > 0;
+    if (!moved) {
+        if (!smooth) lane.rough = false; // a shorter step may miss the kink
+        lane.cut = lane.cut || lane.rough;
+        return;
+    }
+    bool held = false; // such steps lose little, however many they are
+    for (auto const& state : held_) held = held || side_by_side::test(state.lanes, l);
+    lane.crossing = smooth || held ? 0 : lane.crossing + 1;
+    lane.near = lane.cut ? 4 * lane.next : infinity;
+    if (!lane.cut && (lane.next < lane.proposed || lane.free)) {
+        // Aim at a tenth of the allowed truncation; what is too long costs a whole attempt.
+        double const ratio = side_by_side::get(ratio_, l);
+        double const exponent = 1 / static_cast<double>(order + 1);
+        double const better =
+            ratio > 0 ? std::clamp(std::pow(0.1 / ratio, exponent), 0.8, 1.1) : 1.1;
+        lane.learned = std::clamp(lane.learned * lane.next / lane.proposed * better, 0.05, 4.0);
+    }
+    lane.attempts = 0;
+    lane.rough = false;
+    ++lane.steps;
 }
 
 #ifdef SIVID_COMPILED // its members are compiled once

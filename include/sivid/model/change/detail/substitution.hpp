@@ -16,6 +16,25 @@
 
 namespace sivid {
 
+namespace model_detail {
+
+/// The memories of a model whose constants have moved.
+/// @param position  of each of the old constants; beyond `kept`: it is replaced
+inline std::vector<signal_memory> moved(std::vector<signal_memory> memories,
+                                        std::vector<std::size_t> const& position, std::size_t kept,
+                                        std::vector<model_description::constant> const& old) {
+    for (auto& m : memories) {
+        if (position[m.constant] >= kept) {
+            throw std::invalid_argument("substituted: the delay or play '" + old[m.constant].name +
+                                        "' must stay a constant");
+        }
+        m.constant = position[m.constant];
+    }
+    return memories;
+}
+
+} // namespace model_detail
+
 /// The model with some of its constants replaced by functions of new ones, which stand behind the
 /// others. A derived constant follows those that are replaced.
 /// @param replaced  names of constants
@@ -48,10 +67,9 @@ substituted(recorded_model const& model, std::vector<std::string> const& replace
     std::vector<node_id> arguments;
     for (auto const& c : fresh) {
         for (auto const& other : constants) {
-            if (other.name == c.name) {
+            if (other.name == c.name)
                 throw std::invalid_argument("substituted: the model has a constant '" + c.name +
                                             "'");
-            }
         }
         arguments.push_back(g.leaf(operation::constant, constants.size()));
         constants.push_back(c);
@@ -73,15 +91,8 @@ substituted(recorded_model const& model, std::vector<std::string> const& replace
             std::find_first_of(of.begin(), of.end(), gone.begin(), gone.end()) != of.end();
         result.derived.push_back({position[d.constant], value, d.always || follows_replaced});
     }
-    auto const moved = [&](std::vector<signal_memory> delays) {
-        for (auto& d : delays) {
-            if (position[d.constant] >= constants.size()) {
-                throw std::invalid_argument("substituted: the delay or play '" +
-                                            old[d.constant].name + "' must stay a constant");
-            }
-            d.constant = position[d.constant];
-        }
-        return delays;
+    auto const moved = [&](std::vector<signal_memory> const& memories) {
+        return model_detail::moved(memories, position, constants.size(), old);
     };
     result.input_memory = moved(model.input_memory);
     result.channel_delays = moved(model.channel_delays);

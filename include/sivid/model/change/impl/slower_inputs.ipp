@@ -107,6 +107,109 @@ inline std::vector<double> integral_bounds(piecewise_lines const& w, sampled_sig
     return bounds;
 }
 
+/// What the inputs of all experiments are.
+struct kinds_of_inputs {
+    std::vector<double> ends;   ///< by experiment
+    std::vector<bool> fast;     ///< recorded, with four samples or more a period somewhere
+    std::vector<bool> recorded; ///< without errors
+    std::vector<bool> held;     ///< between samples
+};
+inline kinds_of_inputs kinds_of(identification_problem const& problem, double period) {
+    auto const inputs = problem.model.about.inputs.size();
+    kinds_of_inputs of{{},
+                       std::vector<bool>(inputs, false),
+                       std::vector<bool>(inputs, true),
+                       std::vector<bool>(inputs, true)};
+    for (auto const& e : problem.experiments) {
+        double const end = e.end();
+        of.ends.push_back(end);
+        for (std::size_t i = 0; i < inputs; ++i) {
+            auto const* const u = std::get_if<sampled_signal>(&e.inputs[i]);
+            of.recorded[i] = of.recorded[i] && u != nullptr && u->exact();
+            if (u == nullptr) continue;
+            of.held[i] = of.held[i] && u->kind() == interpolation::hold;
+            auto const knots = std::upper_bound(u->times().begin(), u->times().end(), end) -
+                               std::upper_bound(u->times().begin(), u->times().end(), e.begin);
+            if (static_cast<double>(knots) * period >= 4 * (end - e.begin) && knots > 4)
+                of.fast[i] = true;
+        }
+    }
+    for (std::size_t i = 0; i < inputs; ++i) of.fast[i] = of.fast[i] && of.recorded[i];
+    return of;
+}
+
+/// From the begin to the end of an experiment: all samples of the recorded inputs, and periods.
+struct two_grids {
+    std::vector<double> times, knots;
+};
+inline two_grids grids_of(experiment const& e, double end, std::vector<bool> const& recorded,
+                          double period) {
+    two_grids of{{e.begin}, {}};
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+        if (!recorded[i]) continue;
+        for (double const t : std::get<sampled_signal>(e.inputs[i]).times()) {
+            if (t > e.begin && t < end) of.times.push_back(t);
+        }
+    }
+    std::sort(of.times.begin(), of.times.end());
+    of.times.erase(std::unique(of.times.begin(), of.times.end()), of.times.end());
+    auto const count = std::max(1.0, std::ceil((end - e.begin) / period));
+    for (double n = 0; n < count; ++n) of.knots.push_back(e.begin + n * period);
+    double const last = std::max(end, e.begin + count * period);
+    of.knots.push_back(last);
+    of.times.push_back(last);
+    return of;
+}
+
+/// Products of functions of recorded inputs, over one experiment.
+/// @param functions  slots of the calculation
+/// @returns nothing where a function is not defined
+inline std::optional<std::vector<piecewise_lines>>
+lines_of_products(std::vector<std::vector<std::size_t>> const& products,
+                  std::vector<node_id> const& functions, program const& calculation,
+                  std::vector<signal> const& inputs, std::vector<double> const& times) {
+    std::vector<piecewise_lines> w(products.size());
+    for (auto& product : w) product.times = times;
+    auto value = calculation.memory<proven_arithmetic<interval>>();
+    for (std::size_t piece = 0; piece + 1 < times.size(); ++piece) {
+        for (double const t : {times[piece], times[piece + 1]}) {
+            calculation.read(value, [&](operation, std::size_t i) {
+                auto const& u = std::get<sampled_signal>(inputs[i]);
+                return u.value<interval>(u.piece(times[piece]), interval(t));
+            });
+            if (calculation.run<proven_arithmetic<interval>>(value)) return std::nullopt;
+            for (std::size_t m = 0; m < w.size(); ++m) {
+                interval of(1.0);
+                for (auto const j : products[m]) of = of * value[functions[j]];
+                (t == times[piece] ? w[m].begin : w[m].end).push_back(of);
+            }
+        }
+    }
+    return w;
+}
+
+/// A line for each product, then the bounds of what it leaves of the integrals.
+/// @returns whether all of it is finite
+inline bool add_lines(std::vector<signal>& to, std::vector<piecewise_lines> const& products,
+                      std::vector<double> const& knots) {
+    auto const all_finite = [](std::vector<double> const& x) {
+        return std::all_of(x.begin(), x.end(), [](double y) { return std::isfinite(y); });
+    };
+    std::vector<signal> integrals;
+    for (auto const& w : products) {
+        auto const values = lines_through(w, knots);
+        if (!all_finite(values)) return false;
+        sampled_signal const line(knots, values, interpolation::linear);
+        auto const bounds = integral_bounds(w, line);
+        if (!all_finite(bounds)) return false;
+        integrals.emplace_back(sampled_signal(knots, std::vector<double>(knots.size(), 0.0),
+                                              interpolation::hold, bounds));
+        to.emplace_back(line);
+    }
+    for (auto& u : integrals) to.push_back(std::move(u));
+    return true;
+}
+
 } // namespace model_detail
 
 SIVID_DECL std::optional<identification_problem>
@@ -117,25 +220,8 @@ with_slower_inputs(identification_problem const& problem, double period) {
                                     nearest_text(period));
     }
     auto const& model = problem.model;
-    auto const inputs = model.about.inputs.size();
     if (model.has_memory()) return std::nullopt;
-    std::vector<double> ends;
-    std::vector<bool> fast(inputs, false), recorded(inputs, true), held(inputs, true);
-    for (auto const& e : problem.experiments) {
-        double const end = e.end();
-        ends.push_back(end);
-        for (std::size_t i = 0; i < inputs; ++i) {
-            auto const* const u = std::get_if<sampled_signal>(&e.inputs[i]);
-            recorded[i] = recorded[i] && u != nullptr && u->exact();
-            if (u == nullptr) continue;
-            held[i] = held[i] && u->kind() == interpolation::hold;
-            auto const knots = std::upper_bound(u->times().begin(), u->times().end(), end) -
-                               std::upper_bound(u->times().begin(), u->times().end(), e.begin);
-            if (static_cast<double>(knots) * period >= 4 * (end - e.begin) && knots > 4)
-                fast[i] = true;
-        }
-    }
-    for (std::size_t i = 0; i < inputs; ++i) fast[i] = fast[i] && recorded[i];
+    auto const [ends, fast, recorded, held] = kinds_of(problem, period);
     if (std::find(fast.begin(), fast.end(), true) == fast.end()) return std::nullopt;
     auto found = driven_by(model, fast, recorded, held);
     if (!found || found->functions.empty()) return std::nullopt;
@@ -148,58 +234,18 @@ with_slower_inputs(identification_problem const& problem, double period) {
         if (product.size() > 1 && !(of_held[product[0]] && of_held[product[1]]))
             return std::nullopt;
     }
-
     identification_problem result{std::move(made->model), problem.choice, problem.prior, {}};
     for (std::size_t k = 0; k < problem.experiments.size(); ++k) {
         auto const& from = problem.experiments[k];
         auto e = from;
         e.inputs.clear();
-        std::vector<double> times{from.begin};
-        for (std::size_t i = 0; i < inputs; ++i) {
+        for (std::size_t i = 0; i < fast.size(); ++i) {
             if (!fast[i]) e.inputs.push_back(from.inputs[i]);
-            if (!recorded[i]) continue;
-            for (double const t : std::get<sampled_signal>(from.inputs[i]).times()) {
-                if (t > from.begin && t < ends[k]) times.push_back(t);
-            }
         }
-        std::sort(times.begin(), times.end());
-        times.erase(std::unique(times.begin(), times.end()), times.end());
-        auto const count = std::max(1.0, std::ceil((ends[k] - from.begin) / period));
-        std::vector<double> knots;
-        for (double n = 0; n < count; ++n) knots.push_back(from.begin + n * period);
-        double const last = std::max(ends[k], from.begin + count * period);
-        knots.push_back(last);
-        times.push_back(last);
-        std::vector<piecewise_lines> w(made->products.size());
-        auto value = calculation.memory<proven_arithmetic<interval>>();
-        for (std::size_t piece = 0; piece + 1 < times.size(); ++piece) {
-            for (double const t : {times[piece], times[piece + 1]}) {
-                calculation.read(value, [&](operation, std::size_t i) {
-                    auto const& u = std::get<sampled_signal>(from.inputs[i]);
-                    return u.value<interval>(u.piece(times[piece]), interval(t));
-                });
-                if (calculation.run<proven_arithmetic<interval>>(value)) return std::nullopt;
-                for (std::size_t m = 0; m < w.size(); ++m) {
-                    interval of(1.0);
-                    for (auto const j : made->products[m]) of = of * value[functions[j]];
-                    (t == times[piece] ? w[m].begin : w[m].end).push_back(of);
-                }
-            }
-        }
-        std::vector<signal> integrals;
-        for (auto& function : w) {
-            function.times = times;
-            auto const finite = [](double x) { return std::isfinite(x); };
-            auto const values = lines_through(function, knots);
-            if (!std::all_of(values.begin(), values.end(), finite)) return std::nullopt;
-            sampled_signal const line(knots, values, interpolation::linear);
-            auto const bounds = integral_bounds(function, line);
-            if (!std::all_of(bounds.begin(), bounds.end(), finite)) return std::nullopt;
-            integrals.emplace_back(sampled_signal(knots, std::vector<double>(knots.size(), 0.0),
-                                                  interpolation::hold, bounds));
-            e.inputs.emplace_back(line);
-        }
-        for (auto& u : integrals) e.inputs.push_back(std::move(u));
+        auto const [times, knots] = grids_of(from, ends[k], recorded, period);
+        auto const w =
+            lines_of_products(made->products, functions, calculation, from.inputs, times);
+        if (!w || !add_lines(e.inputs, *w, knots)) return std::nullopt;
         result.experiments.push_back(std::move(e));
     }
     return result;

@@ -34,6 +34,28 @@ struct leaf_names {
     return sizes[i] <= most;
 }
 
+/// How tightly the outermost operation binds: 1 sums, 2 products, 3 signs, 4 powers, 5 atoms.
+[[nodiscard]] inline int binding_of(graph const& g, node_id k, leaf_names const& names) {
+    if (names.nodes.contains(k)) return 5;
+    switch (g[k].op) {
+    case operation::add:
+    case operation::sub:
+        return 1;
+    case operation::mul:
+    case operation::div:
+        return 2;
+    case operation::neg:
+        return 3;
+    case operation::sqr:
+    case operation::pown:
+        return 4;
+    case operation::literal:
+        return g.value(g[k]).nearest < 0 ? 3 : 5;
+    default:
+        return 5;
+    }
+}
+
 /// A node as a formula: "3.141592653589793 * D^2 / 4". Literals are the decimals of their nearest
 /// doubles; leaves without a name are "?".
 /// @cost  that of the text, which may be long where subexpressions are shared
@@ -44,30 +66,9 @@ struct leaf_names {
         auto const k = static_cast<std::size_t>(n.index);
         return k < known.size() ? known[k] : std::string{"?"};
     };
-    // How tightly the outermost operation binds: 1 sums, 2 products, 3 signs, 4 powers, 5 atoms.
-    auto const rank_of = [&](node_id k) {
-        if (names.nodes.contains(k)) return 5;
-        switch (g[k].op) {
-        case operation::add:
-        case operation::sub:
-            return 1;
-        case operation::mul:
-        case operation::div:
-            return 2;
-        case operation::neg:
-            return 3;
-        case operation::sqr:
-        case operation::pown:
-            return 4;
-        case operation::literal:
-            return g.value(g[k]).nearest < 0 ? 3 : 5;
-        default:
-            return 5;
-        }
-    };
     auto const within = [&](node_id k, int rank) {
         auto text = formula_text(g, k, names);
-        return rank_of(k) < rank ? "(" + text + ")" : text;
+        return binding_of(g, k, names) < rank ? "(" + text + ")" : text;
     };
     switch (n.op) {
     case operation::literal:

@@ -254,15 +254,15 @@ private:
         return side_by_side::select(good, q * up, scalar(infinity));
     }
 
-    void enter(series<T> const& s, instruction const& i) {
-        if (i.is_sum()) {
-            auto const* const terms = program_->terms(i);
-            for (std::size_t n = 0; n < i.last_term - i.first_term; ++n) {
-                auto const& t = terms[n];
-                if (t.product && t.a_varies && t.b_varies) own_.push_back(beyond(t.a, t.b));
-            }
-            return;
+    void enter_sum(instruction const& i) {
+        auto const* const terms = program_->terms(i);
+        for (std::size_t n = 0; n < i.last_term - i.first_term; ++n) {
+            auto const& t = terms[n];
+            if (t.product && t.a_varies && t.b_varies) own_.push_back(beyond(t.a, t.b));
         }
+    }
+    void enter(series<T> const& s, instruction const& i) {
+        if (i.is_sum()) return enter_sum(i);
         auto const least = [&](std::size_t slot) { return rough_bounds(s.coefficient(slot, 0)); };
         switch (i.op) {
         case operation::mul:
@@ -294,12 +294,9 @@ private:
             break;
         }
         case operation::sin:
-        case operation::cos: { // r_y <= T_y + w r_c, r_c <= T_c + w r_y
-            scalar const moved = change(i.a);
-            own_.push_back(
-                over_rest(beyond(i.companion, i.a) + beyond(i.target, i.a) * moved, moved * moved));
+        case operation::cos:
+            own_.push_back(sine_tail(i));
             break;
-        }
         case operation::atan: { // r_y' (1 + a^2) is known
             scalar const lower = distance(s, i.a);
             own_.push_back(lower);
@@ -317,17 +314,24 @@ private:
             own_.push_back(without(least(i.a).least(), movement(i.a)));
             break;
         case operation::min:
-        case operation::max: {
-            scalar moved{};
-            if (i.a_varies) moved += movement(i.a);
-            if (i.b_varies) moved += movement(i.b);
-            own_.push_back(without(
-                rough_bounds(s.coefficient(i.a, 0) - s.coefficient(i.b, 0)).least(), moved));
+        case operation::max:
+            own_.push_back(least_gap(s, i));
             break;
-        }
         default:
             break;
         }
+    }
+    /// What |a - b| is at least.
+    [[nodiscard]] scalar least_gap(series<T> const& s, instruction const& i) const {
+        scalar moved{};
+        if (i.a_varies) moved += movement(i.a);
+        if (i.b_varies) moved += movement(i.b);
+        return without(rough_bounds(s.coefficient(i.a, 0) - s.coefficient(i.b, 0)).least(), moved);
+    }
+    /// Of sine or cosine: \f$ r_y \le T_y + w r_c, r_c \le T_c + w r_y \f$.
+    [[nodiscard]] scalar sine_tail(instruction const& i) const {
+        scalar const moved = change(i.a);
+        return over_rest(beyond(i.companion, i.a) + beyond(i.target, i.a) * moved, moved * moved);
     }
     /// Of the exponential of a's polynomial.
     [[nodiscard]] scalar exp_tail(series<T> const& s, instruction const& i) const {
@@ -378,6 +382,21 @@ private:
         }
         return total;
     }
+    scalar of_root(scalar const& ra) {
+        scalar const lower = own();
+        scalar const rest = (ra + own()) * up;
+        scalar const coarse = quotient(rest, lower);
+        // The root itself is at least lower - coarse, and the polynomial at least lower.
+        scalar const both = lower + without(lower, coarse);
+        return side_by_side::select(coarse < lower * down, quotient(rest, both * down),
+                                    scalar(infinity));
+    }
+    scalar of_quotient(instruction const& i, scalar const& ra, scalar const& rb) {
+        scalar const lower = own();
+        if (!i.b_varies) return quotient(ra, lower);
+        scalar const cut = own();
+        return quotient(ra + cut + whole_[i.target] * rb, without(lower, rb));
+    }
     scalar of(instruction const& i) {
         // What does not vary has no tail, whatever its slot holds.
         scalar const ra = i.a_varies ? tail_[i.a] : scalar(0.0);
@@ -399,21 +418,10 @@ private:
             return product(own(), whole_[other], whole_[i.companion], tail_[other],
                            tail_[i.companion]);
         }
-        case operation::div: {
-            scalar const lower = own();
-            if (!i.b_varies) return quotient(ra, lower);
-            scalar const cut = own();
-            return quotient(ra + cut + whole_[i.target] * rb, without(lower, rb));
-        }
-        case operation::sqrt: {
-            scalar const lower = own();
-            scalar const rest = (ra + own()) * up;
-            scalar const coarse = quotient(rest, lower);
-            // The root itself is at least lower - coarse, and the polynomial at least lower.
-            scalar const both = lower + without(lower, coarse);
-            return side_by_side::select(coarse < lower * down, quotient(rest, both * down),
-                                        unknown);
-        }
+        case operation::div:
+            return of_quotient(i, ra, rb);
+        case operation::sqrt:
+            return of_root(ra);
         case operation::exp: {
             scalar const mine = own();
             return side_by_side::select(ra <= scalar(1.0),

@@ -459,6 +459,29 @@ inline constexpr std::array<std::int64_t, 3 * per_vector> ramp = [] {
     return w;
 }
 
+/// The lanes of first, first + 1, ... from one number to another.
+[[gnu::always_inline]] inline vector_mask lanes_within(std::size_t first, std::size_t from,
+                                                       std::size_t to) {
+    // Read rather than compared: without AVX-512, g++ compares numbers one by one.
+    std::int64_t const* const not_before =
+        ramp.data() + per_vector - (from > first ? from - first : 0);
+    std::int64_t const* const not_after =
+        ramp.data() + per_vector + (to - first < per_vector ? per_vector - 1 - (to - first) : 0);
+    return vector_mask(*reinterpret_cast<loose_mask const*>(not_before)) &
+           vector_mask(*reinterpret_cast<loose_mask const*>(not_after));
+}
+
+/// What products are multiplied by, from `first` on, and its modulus.
+struct signed_and_size {
+    vector weight, size;
+};
+[[gnu::always_inline]] inline signed_and_size weights(row_convolution const& c, std::size_t first) {
+    vector w = vector{} + 1;
+    if (c.weight == convolved_by::order) w = counted(first);
+    double const size = c.factor < 0 ? -c.factor : c.factor;
+    return {w * c.factor, w * size};
+}
+
 /// Adds factor * \f$ \sum_{j=from}^{to} w_j a_j b_{k-j} \f$ to eight partial sums of each
 /// coefficient, of what the products lose, and of their size. What stands in the rows outside of
 /// that is not read as a number: it may be a NaN.
@@ -481,14 +504,7 @@ void convolve_rows(monomial_space const& space, double* totals, row_convolution 
     }
     bool const plain = c.factor == 1 && c.weight == convolved_by::one;
     for (std::size_t first = c.from / per_vector * per_vector; first <= c.to; first += per_vector) {
-        // Read rather than compared: without AVX-512, g++ compares numbers one by one.
-        std::int64_t const* const not_before =
-            ramp.data() + per_vector - (c.from > first ? c.from - first : 0);
-        std::int64_t const* const not_after =
-            ramp.data() + per_vector +
-            (c.to - first < per_vector ? per_vector - 1 - (c.to - first) : 0);
-        vector_mask const used = vector_mask(*reinterpret_cast<loose_mask const*>(not_before)) &
-                                 vector_mask(*reinterpret_cast<loose_mask const*>(not_after));
+        vector_mask const used = lanes_within(first, c.from, c.to);
         double const* const p = c.a + first;
         double const* const q = c.b + static_cast<std::ptrdiff_t>(c.k) -
                                 static_cast<std::ptrdiff_t>(first + per_vector - 1);
@@ -506,13 +522,9 @@ void convolve_rows(monomial_space const& space, double* totals, row_convolution 
             for (std::size_t i = 0; i < rows; ++i) read(i);
         }
         if (!plain) {
-            vector w = vector{} + 1;
-            if (c.weight == convolved_by::order) w = counted(first);
-            double const size = c.factor < 0 ? -c.factor : c.factor;
-            vector const signed_weight = w * c.factor;
-            vector const unsigned_weight = w * size;
+            auto const [signed_weight, size] = weights(c, first);
             for (std::size_t i = 0; i < terms; ++i) left[i] *= signed_weight;
-            for (std::size_t i = terms; i < rows; ++i) left[i] *= unsigned_weight;
+            for (std::size_t i = terms; i < rows; ++i) left[i] *= size;
         }
         stored_vector* const own = sum + first / per_vector % row_parts;
         Kernel::run(

@@ -21,6 +21,49 @@ struct lane_frame {
     C defect{};
 };
 
+namespace space_detail {
+
+template <class C>
+[[nodiscard]] C dot(std::vector<C> const& a, std::vector<C> const& b) {
+    C sum{};
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
+/// Takes away what v has along q.
+template <class C>
+void remove_share(std::vector<C>& v, std::vector<C> const& q) {
+    C const share = dot(v, q);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] -= q[i] * share;
+}
+/// 0 stays 0.
+/// @param square  about the square of its length
+template <class C>
+void normalise(std::vector<C>& v, C const& square) {
+    C const factor = each_lane<C>([&](std::size_t l) {
+        double const x = lane_traits<C>::get(square, l);
+        return x > 0 ? 1 / std::sqrt(x) : 0.0;
+    });
+    for (auto& x : v) x *= factor;
+}
+/// Bounds \f$ \|Q^T Q - 1\|_\infty \f$.
+template <class C>
+[[nodiscard]] C orthogonality_defect(std::vector<std::vector<C>> const& axis) {
+    constexpr double unit = std::numeric_limits<double>::epsilon();
+    auto const n = axis.size();
+    C rho{};
+    for (std::size_t k = 0; k < n; ++k) {
+        C row{};
+        for (std::size_t l = 0; l < n; ++l) {
+            row += lane_traits<C>::abs(dot(axis[k], axis[l]) - C(k == l ? 1.0 : 0.0));
+        }
+        rho = lane_traits<C>::max(rho, row);
+    }
+    // Entries are at most 1 and a little; every sum of n products errs by less than 2n^2 units.
+    return rho * (1 + 1e-12) + 4.0 * static_cast<double>(n * n * n) * unit;
+}
+
+} // namespace space_detail
+
 /// Gram-Schmidt, twice, along the longest of the given directions, in the same order in all lanes.
 /// Where they do not span the space, or numbers are not finite, unit vectors take their place.
 /// @param score  vector of C -> vector of double: common sizes of lengths (a choice, no bound)
@@ -32,17 +75,8 @@ template <class C, class Score>
 [[nodiscard]] lane_frame<C> common_frame(std::vector<std::vector<C>> directions,
                                          Score const& score) {
     using side_by_side = lane_traits<C>;
-    constexpr double unit = std::numeric_limits<double>::epsilon();
+    using namespace space_detail;
     auto const n = directions.empty() ? 0 : directions.front().size();
-    auto const dot = [n](std::vector<C> const& a, std::vector<C> const& b) {
-        C sum{};
-        for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
-        return sum;
-    };
-    auto const remove = [&](std::vector<C>& v, std::vector<C> const& q) {
-        C const share = dot(v, q);
-        for (std::size_t i = 0; i < n; ++i) v[i] -= q[i] * share;
-    };
     std::vector<C> squares;
     C largest{};
     for (auto const& d : directions) {
@@ -69,36 +103,18 @@ template <class C, class Score>
         }
         taken[best] = true;
         auto q = directions[best];
-        C const size = each_lane<C>([&](std::size_t l) {
-            double const x = side_by_side::get(squares[best], l);
-            return x > 0 ? 1 / std::sqrt(x) : 0.0;
-        });
-        for (auto& x : q) x *= size;
-        for (auto const& p : frame.axis) remove(q, p);
-        C const again = dot(q, q);
-        C const length = each_lane<C>([&](std::size_t l) {
-            double const x = side_by_side::get(again, l);
-            return x > 0 ? 1 / std::sqrt(x) : 0.0;
-        });
-        for (auto& x : q) x *= length;
+        normalise(q, squares[best]);
+        for (auto const& p : frame.axis) remove_share(q, p);
+        normalise(q, dot(q, q));
         for (std::size_t j = 0; j < directions.size(); ++j) {
             if (taken[j]) continue;
-            remove(directions[j], q);
+            remove_share(directions[j], q);
             squares[j] = dot(directions[j], directions[j]);
         }
         squares[best] = 0.0;
         frame.axis.push_back(std::move(q));
     }
-    C rho{};
-    for (std::size_t k = 0; k < n; ++k) {
-        C row{};
-        for (std::size_t l = 0; l < n; ++l) {
-            row += side_by_side::abs(dot(frame.axis[k], frame.axis[l]) - C(k == l ? 1.0 : 0.0));
-        }
-        rho = side_by_side::max(rho, row);
-    }
-    // Entries are at most 1 and a little; every sum of n products errs by less than 2n^2 units.
-    rho = rho * (1 + 1e-12) + 4.0 * static_cast<double>(n * n * n) * unit;
+    C const rho = orthogonality_defect(frame.axis);
     auto const good = rho < C(0.01);
     for (std::size_t k = 0; k < n; ++k) {
         for (std::size_t i = 0; i < n; ++i) {
