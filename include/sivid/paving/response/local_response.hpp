@@ -268,18 +268,15 @@ struct response_verdict {
         auto const& bound = known.bounds[y];
         auto const& value = values[y];
         if (traits::disjoint(value, bound)) {
-            if (++result.failed > known.allowed) {
-                result.refuted = true;
-                return result;
-            }
+            result.refuted = ++result.failed > known.allowed;
+            if (result.refuted) return result;
             continue;
         }
         if (traits::subset(value, bound)) {
             ++result.held;
             continue;
         }
-        double const spread = rad(value);
-        if (!std::isfinite(spread)) {
+        if (!std::isfinite(rad(value))) {
             result.sharpness = 1;
             continue;
         }
