@@ -206,7 +206,7 @@ struct response_verdict {
     std::vector<double> smear; ///< per parameter
 };
 
-/// That output y keeps its bound over a part, to first order in d in [-1, 1]^n.
+/// What a point d in [-1, 1]^n of a part meets where output y keeps its bound: slope . d in target.
 [[nodiscard]] inline linear_constraint constraint_of(response const& known,
                                                      local_response const& local, std::size_t y) {
     using traits = interval_traits<interval>;
