@@ -43,84 +43,14 @@ public:
     /// For these parameters; cheap when no unknown delay moves it.
     void place(std::vector<double> const& parameters) {
         if (!times_.empty() && !moves_) return;
-        bool moved = times_.empty();
-        auto const set = [&](std::vector<double>& sizes, auto const& memory, memory_kind kind) {
-            auto const before = sizes;
-            std::fill(sizes.begin(), sizes.end(), 0.0);
-            for (auto const& m : memory) { // one behind the other: delays add up, and so do plays
-                if (m.kind == kind) sizes[m.index] += std::max(0.0, m.value(parameters));
-            }
-            moved = moved || sizes != before;
-        };
-        std::vector<dead_time> inputs(input_late_.size());
-        for (auto const& m : model_->input_memory())
-            if (is_dead_time(m.kind)) m.add_to(inputs[m.index], parameters);
-        moved = moved || inputs != input_late_;
-        input_late_ = std::move(inputs);
-        std::vector<dead_time> channels;
-        for (auto const& d : model_->channel_delays())
-            d.add_to(channels.emplace_back(), parameters);
-        moved = moved || channels != channel_late_;
-        channel_late_ = std::move(channels);
-        set(play_, model_->input_memory(), memory_kind::play);
-        auto const before = limit_;
-        std::fill(limit_.begin(), limit_.end(), late_signal::no_limit);
-        for (auto const& m : model_->input_memory()) { // of two the smaller one, nearly
-            if (m.kind != memory_kind::rate_limit) continue;
-            double const now = std::max(std::numeric_limits<double>::min(), m.value(parameters));
-            limit_[m.index] = std::min(limit_[m.index], now);
-        }
-        moved = moved || limit_ != before;
-        if (!moved) return;
+        bool const changed = measure_memories(parameters);
+        if (!changed && !times_.empty()) return;
         double end = begin_;
         for (auto const& r : requests_) end = std::max(end, r.time);
         if (requests_.empty() && !knots_.empty()) end = std::max(end, knots_.back());
-        std::vector<bool> remembered(signals_.size(), false);
-        for (auto const& m : model_->input_memory()) {
-            auto const i = m.index;
-            if (is_dead_time(m.kind) || remembered[i]) continue;
-            auto const plays = [i](plain_memory const& other) {
-                return other.index == i && other.kind == memory_kind::play;
-            };
-            auto const& all = model_->input_memory();
-            signals_[i].remember(
-                limit_[i],
-                std::any_of(all.begin(), all.end(), plays) ? std::optional(play_[i]) : std::nullopt,
-                end);
-            remembered[i] = true;
-        }
-        times_ = {begin_, end};
-        auto const within = [&](double t) {
-            if (begin_ < t && t < end) times_.push_back(t);
-        };
-        for (auto const& r : requests_) within(seen(r));
-        for (auto const t : knots_) within(t);
-        for (auto const i : model_->used_inputs()) {
-            signals_[i].knots(input_late_[i], begin_, end, times_);
-            if (!signals_[i].is_formula()) continue;
-            for (int k = 1; k < late_signal::fine; ++k)
-                within(begin_ + (end - begin_) * k / late_signal::fine);
-        }
-        std::sort(times_.begin(), times_.end());
-        // Times that differ by rounding only are one.
-        double const close = 1e-12 * std::max(std::abs(begin_), std::abs(end));
-        times_.erase(std::unique(times_.begin(), times_.end(),
-                                 [close](double a, double b) { return b - a <= close; }),
-                     times_.end());
-        observed_.assign(times_.size(), {});
-        for (std::size_t k = 0; k < requests_.size(); ++k) {
-            auto const at =
-                std::lower_bound(times_.begin(), times_.end(), seen(requests_[k]) - close);
-            observed_[static_cast<std::size_t>(at - times_.begin())].push_back(k);
-        }
-        auto const n = signals_.size();
-        lines_.assign(times_.size() * n, {});
-        for (auto const i : model_->used_inputs()) {
-            for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
-                lines_[k * n + i] = signals_[i].on(input_late_[i], times_[k], times_[k + 1]);
-            }
-            lines_[pieces() * n + i] = {signals_[i].at(input_late_[i], end), 0, 0};
-        }
+        play_inputs(end);
+        cut(end);
+        draw_lines(end);
     }
 
     [[nodiscard]] std::size_t pieces() const { return times_.size() - 1; }
@@ -172,6 +102,82 @@ public:
     }
 
 private:
+    /// How large dead times, plays and limits are. @returns whether any differs from before
+    [[nodiscard]] bool measure_memories(std::vector<double> const& parameters) {
+        std::vector<dead_time> inputs(input_late_.size()), channels;
+        std::vector<double> play(play_.size(), 0.0), limit(limit_.size(), late_signal::no_limit);
+        // One behind the other: delays add up, and so do plays; of two limits the smaller, nearly.
+        for (auto const& m : model_->input_memory()) {
+            if (is_dead_time(m.kind)) m.add_to(inputs[m.index], parameters);
+            if (m.kind == memory_kind::play) play[m.index] += std::max(0.0, m.value(parameters));
+            if (m.kind == memory_kind::rate_limit) {
+                double const now =
+                    std::max(std::numeric_limits<double>::min(), m.value(parameters));
+                limit[m.index] = std::min(limit[m.index], now);
+            }
+        }
+        for (auto const& d : model_->channel_delays())
+            d.add_to(channels.emplace_back(), parameters);
+        bool const changed =
+            inputs != input_late_ || channels != channel_late_ || play != play_ || limit != limit_;
+        input_late_ = std::move(inputs);
+        channel_late_ = std::move(channels);
+        play_ = std::move(play);
+        limit_ = std::move(limit);
+        return changed;
+    }
+    /// Inputs behind plays and rate limits, until the end.
+    void play_inputs(double end) {
+        auto const& all = model_->input_memory();
+        std::vector<bool> done(signals_.size(), false);
+        for (auto const& m : all) {
+            auto const i = m.index;
+            if (is_dead_time(m.kind) || done[i]) continue;
+            bool const plays = std::any_of(all.begin(), all.end(), [i](plain_memory const& other) {
+                return other.index == i && other.kind == memory_kind::play;
+            });
+            signals_[i].remember(limit_[i], plays ? std::optional(play_[i]) : std::nullopt, end);
+            done[i] = true;
+        }
+    }
+    /// Finds the times to stop at, and which requests are looked at there.
+    void cut(double end) {
+        times_ = {begin_, end};
+        auto const within = [&](double t) {
+            if (begin_ < t && t < end) times_.push_back(t);
+        };
+        for (auto const& r : requests_) within(seen(r));
+        for (auto const t : knots_) within(t);
+        for (auto const i : model_->used_inputs()) {
+            signals_[i].knots(input_late_[i], begin_, end, times_);
+            if (!signals_[i].is_formula()) continue;
+            for (int k = 1; k < late_signal::fine; ++k)
+                within(begin_ + (end - begin_) * k / late_signal::fine);
+        }
+        std::sort(times_.begin(), times_.end());
+        // Times that differ by rounding only are one.
+        double const close = 1e-12 * std::max(std::abs(begin_), std::abs(end));
+        times_.erase(std::unique(times_.begin(), times_.end(),
+                                 [close](double a, double b) { return b - a <= close; }),
+                     times_.end());
+        observed_.assign(times_.size(), {});
+        for (std::size_t k = 0; k < requests_.size(); ++k) {
+            auto const at =
+                std::lower_bound(times_.begin(), times_.end(), seen(requests_[k]) - close);
+            observed_[static_cast<std::size_t>(at - times_.begin())].push_back(k);
+        }
+    }
+    void draw_lines(double end) {
+        auto const n = signals_.size();
+        lines_.assign(times_.size() * n, {});
+        for (auto const i : model_->used_inputs()) {
+            for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
+                lines_[k * n + i] = signals_[i].on(input_late_[i], times_[k], times_[k + 1]);
+            }
+            lines_[pieces() * n + i] = {signals_[i].at(input_late_[i], end), 0, 0};
+        }
+    }
+
     approximate_model const* model_;
     double begin_;
     std::vector<output_request> requests_;

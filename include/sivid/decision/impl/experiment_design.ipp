@@ -32,6 +32,22 @@ SIVID_DECL double tried_manoeuvre::factor() const {
 
 namespace decision_detail {
 
+/// Whether a manoeuvre is proved to keep the limits of all models, as far as it is known.
+/// @returns integrations
+inline std::size_t check_limits(tried_manoeuvre& t, std::vector<design_guide::model> const& models,
+                                prediction_options const& checking) {
+    std::size_t integrations = 0;
+    for (auto const& m : models) {
+        if (m.limits == nullptr) continue;
+        if (t.limits && *t.limits != requirement_answer::proved) continue;
+        // A refutation would be of no use: what is not proved is not allowed.
+        auto const kept = verify(m.problem->under(t.inputs), *m.limits, {}, checking);
+        t.limits = kept.answer;
+        integrations += kept.integrations;
+    }
+    return integrations;
+}
+
 /// Chooses the settings of each manoeuvre by a guide, and proves the best.
 /// @param prove  fills in what is proved of a manoeuvre, in so many seconds
 inline experiment_design
@@ -80,14 +96,7 @@ design_search(std::vector<manoeuvre> const& menu, std::vector<design_guide::mode
         checking.parts = 1000;
         checking.run = options.run;
         checking.keep_going = limit;
-        for (auto const& m : models) {
-            if (m.limits == nullptr) continue;
-            if (t.limits && *t.limits != requirement_answer::proved) continue;
-            // A refutation would be of no use: what is not proved is not allowed.
-            auto const kept = verify(m.problem->under(t.inputs), *m.limits, {}, checking);
-            t.limits = kept.answer;
-            result.integrations += kept.integrations;
-        }
+        result.integrations += check_limits(t, models, checking);
     }
     std::stable_sort(result.tried.begin(), result.tried.end(), [](auto const& a, auto const& b) {
         if (a.allowed() != b.allowed()) return a.allowed();

@@ -84,85 +84,116 @@ inline subpaving reached_of(subpaving const& products, reduction const& map, box
     return result;
 }
 
+/// Compares what parameters explain all measurements, and what explain all but a group.
+class measurement_ranker {
+public:
+    measurement_ranker(identification_problem const& problem,
+                       measurement_ranking_options const& options)
+        : problem_(&problem),
+          options_(&options),
+          limit_(options.seconds, options.keep_going),
+          all_(identify(problem, asking())) {
+        for (std::size_t e = 0; all_.guess && e < all_.guess->starts.size(); ++e)
+            starts_.push_back(point_within(posed().experiments[e].initial, all_.guess->starts[e]));
+    }
+
+    [[nodiscard]] measurement_ranking operator()(std::vector<measurement_group> groups) {
+        measurement_ranking result;
+        result.explained = all_.verdict;
+        result.coordinates = all_.products && shared() == nullptr ? all_.products->map.side_names()
+                                                                  : problem_->choice.unknown;
+        result.volume = {set().inner_volume().lower(), set().outer_volume().upper()};
+        result.integrations = all_.integrations;
+        result.complete = true;
+        if (all_.verdict == verdict::inconsistent) groups.clear();
+        for (std::size_t k = 0; k < groups.size(); ++k) {
+            measurement_worth worth{.what = groups[k], .measurements = count(*problem_, groups[k])};
+            if (worth.measurements == 0) continue;
+            work_limit const own(limit_.seconds() / static_cast<double>(groups.size() - k), limit_);
+            result.integrations += leave_out(worth, own);
+            result.complete = result.complete && is_close(worth.growth);
+            result.groups.push_back(std::move(worth));
+        }
+        std::stable_sort(result.groups.begin(), result.groups.end(),
+                         [](measurement_worth const& a, measurement_worth const& b) {
+                             return a.growth.lower() != b.growth.lower()
+                                        ? a.growth.lower() > b.growth.lower()
+                                        : a.growth.upper() > b.growth.upper();
+                         });
+        result.seconds = limit_.spent();
+        return result;
+    }
+
+private:
+    [[nodiscard]] identify_options asking() const {
+        identify_options result;
+        static_cast<run_options&>(result.test) = options_->run;
+        result.search.sufficient_ratio = 1 / (1 + options_->accuracy / 2);
+        result.search.seconds = options_->seconds / 3;
+        result.search.boxes = options_->boxes;
+        result.search.keep_outside = false;
+        result.search.keep_going = limit_;
+        result.drawn_boxes = 1000; // of products: nothing but whether any is reached
+        return result;
+    }
+    [[nodiscard]] identification_problem const& posed() const {
+        return all_.products ? all_.products->map.problem() : *problem_;
+    }
+    [[nodiscard]] subpaving const& searched() const {
+        return all_.products ? all_.products->paving : all_.paving;
+    }
+    /// Products that share a factor hold points that no parameter reaches: parameters count there.
+    [[nodiscard]] reduction const* shared() const {
+        return all_.products && !all_.products->map.fills() ? &all_.products->map : nullptr;
+    }
+    [[nodiscard]] subpaving const& set() const {
+        return shared() != nullptr ? all_.paving : searched();
+    }
+    [[nodiscard]] bool is_close(interval const& growth) const {
+        return growth.upper() <= growth.lower() * (1 + options_->accuracy);
+    }
+
+    /// Finds by how much the set grows without a group. @returns integrations
+    [[nodiscard]] std::size_t leave_out(measurement_worth& worth, work_limit const& limit) const {
+        feasibility_test_options test;
+        static_cast<run_options&>(test) = options_->run;
+        others_leave difference(posed(), worth.what, limited(test, limit), starts_);
+        inversion_options search;
+        search.accuracy_of_hull = true;
+        search.sufficient_ratio = 1;
+        search.seconds = limit.seconds();
+        search.boxes = options_->boxes;
+        search.keep_outside = false;
+        search.keep_going = limit;
+        double const least = searched().outer_volume().upper(),
+                     most = searched().inner_volume().lower();
+        search.progress = [&](paving_progress const& now) {
+            return !(most > 0) ||
+                   !is_close({1 + now.inner / least, std::max(1.0, 1 + now.outer / most)});
+        };
+        auto const more = invert(difference, posed().prior, search);
+        auto const* const map = shared();
+        worth.growth = growth_of(
+            set(), map != nullptr ? reached_of(more.paving, *map, problem_->prior) : more.paving);
+        worth.boxes = more.tested;
+        return difference.integrations();
+    }
+
+    identification_problem const* problem_;
+    measurement_ranking_options const* options_;
+    work_limit limit_;
+    identification all_;
+    std::vector<box> starts_; ///< of the best fit, if there is one
+};
+
 } // namespace decision_detail
 
 SIVID_DECL measurement_ranking rank_measurements(identification_problem const& problem,
                                                  measurement_ranking_options const& options,
                                                  std::vector<measurement_group> groups) {
     problem.require_valid_campaign();
-    work_limit const limit(options.seconds, options.keep_going);
     if (groups.empty()) groups = decision_detail::usual_groups(problem, options.times);
-
-    identify_options asking;
-    static_cast<run_options&>(asking.test) = options.run;
-    asking.search.sufficient_ratio = 1 / (1 + options.accuracy / 2);
-    asking.search.seconds = options.seconds / 3;
-    asking.search.boxes = options.boxes;
-    asking.search.keep_outside = false;
-    asking.search.keep_going = limit;
-    asking.drawn_boxes = 1000; // where products are searched: nothing but whether any is reached
-    auto const all = identify(problem, asking);
-    auto const& posed = all.products ? all.products->map.problem() : problem;
-    auto const& searched = all.products ? all.products->paving : all.paving;
-    // Products that share a factor hold points that no parameter reaches: parameters count there.
-    auto const* const map =
-        all.products && !all.products->map.fills() ? &all.products->map : nullptr;
-    auto const& set = map != nullptr ? all.paving : searched;
-
-    measurement_ranking result;
-    result.explained = all.verdict;
-    result.coordinates =
-        all.products && map == nullptr ? all.products->map.side_names() : problem.choice.unknown;
-    result.volume = {set.inner_volume().lower(), set.outer_volume().upper()};
-    result.integrations = all.integrations;
-    result.complete = true;
-    if (all.verdict == verdict::inconsistent) groups.clear();
-    std::vector<box> starts;
-    if (all.guess) {
-        for (std::size_t e = 0; e < all.guess->starts.size(); ++e)
-            starts.push_back(point_within(posed.experiments[e].initial, all.guess->starts[e]));
-    }
-    auto const close = [&](interval const& growth) {
-        return growth.upper() <= growth.lower() * (1 + options.accuracy);
-    };
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-        measurement_worth worth{.what = groups[k],
-                                .measurements = decision_detail::count(problem, groups[k])};
-        if (worth.measurements == 0) continue;
-        work_limit const own(limit.seconds() / static_cast<double>(groups.size() - k), limit);
-        feasibility_test_options test;
-        static_cast<run_options&>(test) = options.run;
-        decision_detail::others_leave difference(posed, groups[k], limited(test, own), starts);
-        inversion_options search;
-        search.accuracy_of_hull = true;
-        search.sufficient_ratio = 1;
-        search.seconds = own.seconds();
-        search.boxes = options.boxes;
-        search.keep_outside = false;
-        search.keep_going = own;
-        double const least = searched.outer_volume().upper(),
-                     most = searched.inner_volume().lower();
-        search.progress = [&](paving_progress const& now) {
-            return !(most > 0) ||
-                   !close({1 + now.inner / least, std::max(1.0, 1 + now.outer / most)});
-        };
-        auto const more = invert(difference, posed.prior, search);
-        worth.growth = decision_detail::growth_of(
-            set, map != nullptr ? decision_detail::reached_of(more.paving, *map, problem.prior)
-                                : more.paving);
-        worth.boxes = more.tested;
-        result.integrations += difference.integrations();
-        result.complete = result.complete && close(worth.growth);
-        result.groups.push_back(std::move(worth));
-    }
-    std::stable_sort(result.groups.begin(), result.groups.end(),
-                     [](measurement_worth const& a, measurement_worth const& b) {
-                         return a.growth.lower() != b.growth.lower()
-                                    ? a.growth.lower() > b.growth.lower()
-                                    : a.growth.upper() > b.growth.upper();
-                     });
-    result.seconds = limit.spent();
-    return result;
+    return decision_detail::measurement_ranker(problem, options)(std::move(groups));
 }
 
 } // namespace sivid

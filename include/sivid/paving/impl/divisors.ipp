@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -123,6 +124,70 @@ private:
     return result;
 }
 
+/// What a node divides by, if it does.
+[[nodiscard]] inline std::optional<node_id> divided_by(node const& n) {
+    if (n.op == operation::div) return n.b;
+    if (n.op == operation::pown && n.index < 0) return n.a;
+    return std::nullopt;
+}
+
+/// Names of equations with the nodes that they need.
+using named_equations = std::vector<std::pair<std::string, std::vector<bool>>>;
+
+[[nodiscard]] inline named_equations equations_of(bound_model const& model,
+                                                  model_description const& about) {
+    named_equations result;
+    for (std::size_t i = 0; i < model.rate.size(); ++i) {
+        result.emplace_back(about.states[i].equation_name(), operands_of(model.g, {model.rate[i]}));
+    }
+    for (std::size_t y = 0; y < model.observe.size(); ++y) {
+        result.emplace_back("output " + about.channels[y].name,
+                            operands_of(model.g, {model.observe[y]}));
+    }
+    return result;
+}
+/// Which of the equations divide by a node.
+[[nodiscard]] inline std::vector<std::string> dividing_by(node_id below, graph const& g,
+                                                          named_equations const& equations) {
+    std::vector<std::string> names;
+    for (auto const& [name, needs] : equations) {
+        bool any = false; // of the divisions by it
+        for (std::size_t j = 0; j < g.size(); ++j)
+            any = any || (needs[j] && divided_by(g.nodes()[j]) == below);
+        if (any) names.push_back(name);
+    }
+    return names;
+}
+
+/// Searches the zeros of a divisor.
+inline void find_zeros(divisor& d, zero_test test, leaf_names const& names,
+                       divisor_options const& options) {
+    inversion_options search;
+    search.boxes = options.boxes;
+    search.keep_outside = false;
+    search.keep_going = [&] {
+        return !test.vanishes() && (!options.keep_going || options.keep_going());
+    };
+    auto const whole = test.domain();
+    // An input that is not bounded (a formula with a pole) leaves it open.
+    bool const bounded = std::all_of(whole.begin(), whole.end(),
+                                     [](interval const& side) { return is_bounded(side); });
+    if (bounded && !invert(test, whole, search).paving.has_outer()) {
+        d.zeros = zeros::none;
+        return;
+    }
+    if (test.vanishes()) d.zeros = zeros::some;
+    auto const name_of = [&names](zero_test::leaf const& l) {
+        return l.kind == operation::time       ? std::string{"t"}
+               : l.kind == operation::state    ? names.states[l.index]
+               : l.kind == operation::constant ? names.constants[l.index]
+                                               : names.inputs[l.index];
+    };
+    for (std::size_t i = 0; i < test.nearest().size(); ++i) {
+        d.near.emplace_back(name_of(test.leaves()[i]), test.nearest()[i]);
+    }
+}
+
 } // namespace paving_detail
 
 SIVID_DECL std::vector<divisor> divisors_of(identification_problem const& problem,
@@ -139,60 +204,18 @@ SIVID_DECL std::vector<divisor> divisors_of(identification_problem const& proble
     leaf_names names{problem.choice.unknown};
     for (auto const& s : about.states) names.states.push_back(s.name);
     for (auto const& u : about.inputs) names.inputs.push_back(u.name);
-    auto const name_of = [&names](paving_detail::zero_test::leaf const& l) {
-        return l.kind == operation::time       ? std::string{"t"}
-               : l.kind == operation::state    ? names.states[l.index]
-               : l.kind == operation::constant ? names.constants[l.index]
-                                               : names.inputs[l.index];
-    };
-    std::vector<std::pair<std::string, std::vector<bool>>> equations; // and the nodes in them
-    for (std::size_t i = 0; i < model.rate.size(); ++i) {
-        equations.emplace_back(about.states[i].equation_name(), operands_of(g, {model.rate[i]}));
-    }
-    for (std::size_t y = 0; y < model.observe.size(); ++y) {
-        equations.emplace_back("output " + about.channels[y].name,
-                               operands_of(g, {model.observe[y]}));
-    }
+    auto const equations = paving_detail::equations_of(model, about);
     std::vector<node_id> done;
-    for (std::size_t k = 0; k < g.size(); ++k) {
-        auto const& n = g.nodes()[k];
-        bool const divides = n.op == operation::div || (n.op == operation::pown && n.index < 0);
-        auto const below = n.op == operation::div ? n.b : n.a;
-        bool const seen = std::find(done.begin(), done.end(), below) != done.end();
-        if (!divides || seen || g.depends(below) == on_nothing) continue;
+    for (auto const& n : g.nodes()) {
+        auto const below = paving_detail::divided_by(n);
+        if (!below || g.depends(*below) == on_nothing) continue;
+        if (std::find(done.begin(), done.end(), *below) != done.end()) continue;
         divisor d;
-        for (auto const& [name, needs] : equations) {
-            bool any = false; // of the divisions by it
-            for (std::size_t j = k; j < g.size(); ++j) {
-                auto const& m = g.nodes()[j];
-                any =
-                    any || (needs[j] && ((m.op == operation::div && m.b == below) ||
-                                         (m.op == operation::pown && m.index < 0 && m.a == below)));
-            }
-            if (any) d.equations.push_back(name);
-        }
+        d.equations = paving_detail::dividing_by(*below, g, equations);
         if (d.equations.empty()) continue; // of derivatives alone
-        done.push_back(below);
-        if (is_short(g, below, names, 40)) d.formula = formula_text(g, below, names);
-        paving_detail::zero_test test(g, below, domain);
-        inversion_options search;
-        search.boxes = options.boxes;
-        search.keep_outside = false;
-        search.keep_going = [&] {
-            return !test.vanishes() && (!options.keep_going || options.keep_going());
-        };
-        auto const whole = test.domain();
-        // An input that is not bounded (a formula with a pole) leaves it open.
-        bool const bounded = std::all_of(whole.begin(), whole.end(),
-                                         [](interval const& side) { return is_bounded(side); });
-        if (bounded && !invert(test, whole, search).paving.has_outer()) {
-            d.zeros = zeros::none;
-        } else {
-            if (test.vanishes()) d.zeros = zeros::some;
-            for (std::size_t i = 0; i < test.nearest().size(); ++i) {
-                d.near.emplace_back(name_of(test.leaves()[i]), test.nearest()[i]);
-            }
-        }
+        done.push_back(*below);
+        if (is_short(g, *below, names, 40)) d.formula = formula_text(g, *below, names);
+        paving_detail::find_zeros(d, {g, *below, domain}, names, options);
         result.push_back(std::move(d));
     }
     return result;

@@ -162,74 +162,22 @@ public:
             return found;
         }
         auto runs = pool_->borrow();
-        std::vector<assessment<knowledge>> results;
-        std::vector<std::shared_ptr<knowledge>> found;
-        std::vector<std::size_t> open; // boxes that no experiment has refuted
-        for (auto const& x : boxes) {
-            results.push_back({.rest = x});
-            auto& mine = results.back();
-            mine.smear.assign(x.size(), 0.0);
-            found.push_back(std::make_shared<knowledge>());
-            if (left_) {
-                mine.rest = intersect(x, *left_);
-                if (is_empty(mine.rest)) {
-                    mine.rest = x;
-                    mine.verdict = box_verdict::outside;
-                    mine.proof.push_back({proof_step::kind::empty});
-                    continue;
-                }
-                add_cuts(mine.proof, x, mine.rest);
-            }
-            open.push_back(results.size() - 1);
-            found.back()->region = mine.rest;
+        auto batch = start(boxes);
+        for (std::size_t e = 0; e < flows_.size() && !batch.open.empty(); ++e) {
+            run_all(runs, e, batch);
         }
-        for (std::size_t e = 0; e < flows_.size() && !open.empty(); ++e) {
-            std::vector<box> regions;
-            for (auto const k : open) {
-                // What earlier experiments cut off need not be integrated, if it is worth the
-                // narrower use.
-                auto& region = found[k]->region;
-                if (relative_volume(results[k].rest, region).upper() < 0.5) {
-                    region = results[k].rest;
-                }
-                regions.push_back(region);
-            }
-            auto const& all = problem_->experiments[e].initial;
-            auto const answers = runs(e, all, regions);
-            std::vector<std::size_t> still_open;
-            for (std::size_t n = 0; n < open.size(); ++n) {
-                auto const k = open[n];
-                ++results[k].cost;
-                auto part = results[k].rest;
-                results[k].proof.push_back({proof_step::kind::run, e});
-                auto const says = assess(*answers[n], part);
-                found[k]->all_starts.push_back(answers[n]);
-                found[k]->chosen_starts.push_back(answers[n]);
-                if (says.refuted) {
-                    results[k].verdict = box_verdict::outside;
-                    results[k].proof.push_back({proof_step::kind::empty});
-                    continue;
-                }
-                if (options_.contract) {
-                    add_cuts(results[k].proof, results[k].rest, part);
-                    results[k].rest = std::move(part);
-                }
-                add_smear(results[k], says.smear);
-                still_open.push_back(k);
-            }
-            open = std::move(still_open);
+        for (std::size_t e = 0; e < flows_.size() && !batch.open.empty(); ++e) {
+            run_chosen(runs, e, batch);
         }
-        for (std::size_t e = 0; e < flows_.size() && !open.empty(); ++e) {
-            run_chosen(runs, e, open, results, found);
-        }
-        for (auto const k : open) {
+        for (auto const k : batch.open) {
             // `rest` may have shrunk since an experiment was judged.
-            auto smear = std::move(results[k].smear);
-            (void)judge(*found[k], results[k]);
-            results[k].smear = std::move(smear);
-            results[k].knowledge = std::move(found[k]);
+            auto& result = batch.results[k];
+            auto smear = std::move(result.smear);
+            (void)judge(*batch.found[k], result);
+            result.smear = std::move(smear);
+            result.knowledge = std::move(batch.found[k]);
         }
-        return results;
+        return std::move(batch.results);
     }
     [[nodiscard]] std::size_t at_once() const { return pool_->at_once(); }
     /// Bytes that responses take.
@@ -316,19 +264,82 @@ private:
         }
         return count;
     }
+    /// Boxes that are integrated together.
+    struct box_batch {
+        std::vector<assessment<knowledge>> results;
+        std::vector<std::shared_ptr<knowledge>> found;
+        std::vector<std::size_t> open; ///< which of them no experiment has refuted
+    };
+    /// Cuts off what is known not to hold feasible parameters.
+    [[nodiscard]] box_batch start(std::vector<box> const& boxes) const {
+        box_batch batch;
+        for (auto const& x : boxes) {
+            batch.results.push_back({.rest = x});
+            auto& mine = batch.results.back();
+            mine.smear.assign(x.size(), 0.0);
+            batch.found.push_back(std::make_shared<knowledge>());
+            if (left_) {
+                mine.rest = intersect(x, *left_);
+                if (is_empty(mine.rest)) {
+                    mine.rest = x;
+                    mine.verdict = box_verdict::outside;
+                    mine.proof.push_back({proof_step::kind::empty});
+                    continue;
+                }
+                add_cuts(mine.proof, x, mine.rest);
+            }
+            batch.open.push_back(batch.results.size() - 1);
+            batch.found.back()->region = mine.rest;
+        }
+        return batch;
+    }
+    /// Runs from all starts; boxes that the experiment refutes are open no more.
+    void run_all(run_pool::loan& runs, std::size_t e, box_batch& batch) const {
+        std::vector<box> regions;
+        for (auto const k : batch.open) {
+            // What earlier experiments cut off need not be integrated, if it is worth the
+            // narrower use.
+            auto& region = batch.found[k]->region;
+            auto const& rest = batch.results[k].rest;
+            if (relative_volume(rest, region).upper() < 0.5) region = rest;
+            regions.push_back(region);
+        }
+        auto const answers = runs(e, problem_->experiments[e].initial, regions);
+        std::vector<std::size_t> still_open;
+        for (std::size_t n = 0; n < batch.open.size(); ++n) {
+            auto const k = batch.open[n];
+            auto& result = batch.results[k];
+            ++result.cost;
+            auto part = result.rest;
+            result.proof.push_back({proof_step::kind::run, e});
+            auto const says = assess(*answers[n], part);
+            batch.found[k]->all_starts.push_back(answers[n]);
+            batch.found[k]->chosen_starts.push_back(answers[n]);
+            if (says.refuted) {
+                result.verdict = box_verdict::outside;
+                result.proof.push_back({proof_step::kind::empty});
+                continue;
+            }
+            if (options_.contract) {
+                add_cuts(result.proof, result.rest, part);
+                result.rest = std::move(part);
+            }
+            add_smear(result, says.smear);
+            still_open.push_back(k);
+        }
+        batch.open = std::move(still_open);
+    }
     /// Runs from the chosen starts, with inputs as recorded, over what no experiment refutes.
-    void run_chosen(run_pool::loan& runs, std::size_t e, std::vector<std::size_t> const& open,
-                    std::vector<assessment<knowledge>>& results,
-                    std::vector<std::shared_ptr<knowledge>> const& found) const {
+    void run_chosen(run_pool::loan& runs, std::size_t e, box_batch& batch) const {
         auto const& all = problem_->experiments[e].initial;
         bool const uncertain = flows_[e]->uncertain();
         if (!uncertain && (is_point(all) || !starts_differ(e))) return;
         std::vector<box> promising;
         std::vector<std::size_t> whose;
-        for (auto const k : open) {
-            auto& answer = found[k]->all_starts[e];
-            if (uncertain) answer = found[k]->chosen_starts[e] = marked(e, answer);
-            auto part = results[k].rest;
+        for (auto const k : batch.open) {
+            auto& answer = batch.found[k]->all_starts[e];
+            if (uncertain) answer = batch.found[k]->chosen_starts[e] = marked(e, answer);
+            auto part = batch.results[k].rest;
             auto const says = assess(*answer, part);
             // Not worth a run where neither the box nor, later, parts of it might hold.
             bool const sharp = answer->outputs() == answer->measurements &&
@@ -336,15 +347,15 @@ private:
             // Else starts that follow the parameters do as well, without a run.
             bool const spoilt = uncertain || !options_.contract || says.blur > 0.25;
             if (says.explained || says.refuted || !(says.may_hold || sharp) || !spoilt) continue;
-            promising.push_back(found[k]->region);
+            promising.push_back(batch.found[k]->region);
             whose.push_back(k);
         }
         if (promising.empty()) return;
         auto const chosen = uncertain ? recorded_pool_->borrow()(e, starts_[e], promising)
                                       : runs(e, starts_[e], promising);
         for (std::size_t n = 0; n < whose.size(); ++n) {
-            ++results[whose[n]].cost;
-            found[whose[n]]->chosen_starts[e] = chosen[n];
+            ++batch.results[whose[n]].cost;
+            batch.found[whose[n]]->chosen_starts[e] = chosen[n];
         }
     }
     /// Notes how much of the radii is due to uncertain inputs.

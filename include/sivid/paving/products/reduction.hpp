@@ -35,73 +35,19 @@ public:
     [[nodiscard]] static std::optional<reduction> find(identification_problem const& problem,
                                                        dependence_structure const& structure,
                                                        std::vector<combination> const& sums = {}) {
+        auto const& products = structure.combinations;
         if (structure.entangled.empty() && sums.empty()) return std::nullopt;
-        auto const is_entangled = [&](std::size_t j) {
-            return std::find(structure.entangled.begin(), structure.entangled.end(), j) !=
-                   structure.entangled.end();
-        };
-        reduction result;
-        result.problem_ = problem;
-        auto& reduced = result.problem_;
-        reduced.choice.unknown.clear();
-        std::vector<interval> prior;
-        std::vector<bool> spared(problem.prior.size(), false);
-        for (std::size_t j = 0; j < problem.prior.size(); ++j) spared[j] = is_entangled(j);
-        if (structure.combinations.empty() && structure.entangled.size() == problem.prior.size()) {
+        builder reduced(problem, structure);
+        if (products.empty() && structure.entangled.size() == problem.prior.size()) {
             if (problem.prior.size() == 1) return std::nullopt;
-            spared[0] = false; // a search needs a side
-            result.sides_.push_back({0, std::nullopt});
-            reduced.choice.unknown.push_back(problem.choice.unknown[0]);
-            prior.push_back(problem.prior[0]);
+            reduced.keep(0); // a search needs a side
         }
-        // Each product needs a parameter of power one that stands in no other product.
-        for (auto const& c : structure.combinations) {
-            std::optional<std::size_t> pivot;
-            for (std::size_t j = 0; j < c.exponents.size(); ++j) {
-                if (c.exponents[j] != 0 && !is_entangled(j)) return std::nullopt;
-                if (!pivot && c.exponents[j] == 1 && users_of(structure.combinations, j) == 1)
-                    pivot = j;
-            }
-            if (!pivot) return std::nullopt;
-            spared[*pivot] = false;
-            auto const range = c.over(problem.prior);
-            if (!std::isfinite(mag(range))) return std::nullopt;
-            result.sides_.push_back({*pivot, c});
-            reduced.choice.unknown.push_back(problem.choice.unknown[*pivot]);
-            prior.push_back(range);
+        for (auto const& c : products) {
+            if (!reduced.take_product(c, products)) return std::nullopt;
         }
-        // The first term of a sum takes its value, the others are 0.
-        std::vector<bool> in_sum(problem.prior.size(), false);
-        for (auto const& c : sums) {
-            std::optional<std::size_t> pivot;
-            bool free = true;
-            for (std::size_t j = 0; j < c.signs.size(); ++j) {
-                if (c.signs[j] != 0) free = free && !is_entangled(j) && !in_sum[j];
-                if (c.signs[j] == 1 && !pivot) pivot = j;
-            }
-            if (!pivot || !free) continue;
-            for (std::size_t j = 0; j < c.signs.size(); ++j) {
-                if (c.signs[j] == 0) continue;
-                in_sum[j] = true;
-                if (j != *pivot) reduced.choice.fixed[problem.choice.unknown[j]] = interval(0.0);
-            }
-            result.sides_.push_back({*pivot, c});
-            reduced.choice.unknown.push_back(problem.choice.unknown[*pivot]);
-            prior.push_back(c.over(problem.prior));
-        }
-        if (structure.entangled.empty() && result.sides_.empty()) return std::nullopt;
-        for (std::size_t j = 0; j < problem.prior.size(); ++j) {
-            if (in_sum[j]) continue;
-            if (spared[j]) {
-                reduced.choice.fixed[problem.choice.unknown[j]] = interval(1.0);
-            } else if (!is_entangled(j)) {
-                result.sides_.push_back({j, std::nullopt});
-                reduced.choice.unknown.push_back(problem.choice.unknown[j]);
-                prior.push_back(problem.prior[j]);
-            }
-        }
-        reduced.prior = box(std::move(prior));
-        return result;
+        for (auto const& c : sums) reduced.take_sum(c);
+        if (structure.entangled.empty() && reduced.is_unchanged()) return std::nullopt;
+        return std::move(reduced).with_the_others();
     }
 
     [[nodiscard]] identification_problem const& problem() const { return problem_; }
@@ -221,6 +167,85 @@ public:
     }
 
 private:
+    /// Takes the sides of a reduction one after the other.
+    class builder {
+    public:
+        builder(identification_problem const& problem, dependence_structure const& structure)
+            : of_(&problem),
+              reduced_(problem),
+              entangled_(problem.prior.size(), false),
+              settled_(problem.prior.size(), false) {
+            reduced_.choice.unknown.clear();
+            for (auto const j : structure.entangled) entangled_[j] = true;
+        }
+
+        /// A parameter as it is.
+        void keep(std::size_t j) { add({j, std::nullopt}, of_->prior[j]); }
+        /// A product needs a parameter of power one that stands in no other product: it takes its
+        /// value. @returns false when there is none
+        [[nodiscard]] bool take_product(combination const& c, std::vector<combination> const& all) {
+            std::optional<std::size_t> pivot;
+            for (std::size_t j = 0; j < c.exponents.size(); ++j) {
+                if (c.exponents[j] != 0 && !entangled_[j]) return false;
+                if (!pivot && c.exponents[j] == 1 && users_of(all, j) == 1) pivot = j;
+            }
+            if (!pivot) return false;
+            auto const range = c.over(of_->prior);
+            if (!std::isfinite(mag(range))) return false;
+            add({*pivot, c}, range);
+            return true;
+        }
+        /// The first term of a sum takes its value, the others are 0; unless they are entangled.
+        void take_sum(combination const& c) {
+            std::optional<std::size_t> pivot;
+            bool free = true;
+            for (std::size_t j = 0; j < c.signs.size(); ++j) {
+                if (c.signs[j] != 0) free = free && !entangled_[j] && !settled_[j];
+                if (c.signs[j] == 1 && !pivot) pivot = j;
+            }
+            if (!pivot || !free) return;
+            for (std::size_t j = 0; j < c.signs.size(); ++j) {
+                if (c.signs[j] != 0 && j != *pivot) fix(j, 0.0);
+            }
+            add({*pivot, c}, c.over(of_->prior));
+        }
+        [[nodiscard]] bool is_unchanged() const { return sides_.empty(); }
+        /// Entangled parameters that no product took are 1, all others stay as they are.
+        [[nodiscard]] reduction with_the_others() && {
+            for (std::size_t j = 0; j < settled_.size(); ++j) {
+                if (settled_[j]) continue;
+                if (entangled_[j])
+                    fix(j, 1.0);
+                else
+                    keep(j);
+            }
+            reduced_.prior = box(std::move(prior_));
+            reduction result;
+            result.problem_ = std::move(reduced_);
+            result.sides_ = std::move(sides_);
+            return result;
+        }
+
+    private:
+        void add(side s, interval const& range) {
+            settled_[s.parameter] = true;
+            reduced_.choice.unknown.push_back(of_->choice.unknown[s.parameter]);
+            sides_.push_back(std::move(s));
+            prior_.push_back(range);
+        }
+        void fix(std::size_t j, double value) {
+            settled_[j] = true;
+            reduced_.choice.fixed[of_->choice.unknown[j]] = interval(value);
+        }
+
+        identification_problem const* of_;
+        identification_problem reduced_;
+        std::vector<side> sides_;
+        std::vector<interval> prior_;
+        std::vector<bool> entangled_;
+        std::vector<bool> settled_; ///< sides already, or fixed
+    };
+
     [[nodiscard]] static bool stands_in(std::size_t j, side const& s) {
         return s.product ? s.product->has(j) : s.parameter == j;
     }

@@ -105,80 +105,104 @@ private:
         if (!is_new) known_term->second = traits::add(known_term->second, c);
     }
 
-    /// Enclosed sum of what has no unknown, with one bound of each unknown's own part.
-    [[nodiscard]] double lower_bound(bool absorb, std::vector<plane> const& planes) const {
-        auto total = constant_;
-        std::vector<interval> slope(n_, traits::point(0.0));
-        std::vector<double> square(n_, 0.0); // at least so large
+    /// What the polynomial is nowhere below: a total of what has no unknown any more, each
+    /// unknown's own part, and mixed terms of two.
+    struct parts {
+        interval total;
+        std::vector<interval> slope;
+        std::vector<double> square; ///< at least so large
         struct mixed_term {
             std::size_t u, v;
             double size;
         };
         std::vector<mixed_term> mixed;
-        std::map<std::pair<std::size_t, std::size_t>, double> tilts;
-        for (auto const& p : planes) tilts[{p.u, p.v}] = p.slope;
-        auto const lose = [&](double size) {
-            total = traits::sub(total, traits::bounds(0.0, size));
-        };
+
+        /// For a term of at most this size.
+        void lose(double size) { total = traits::sub(total, traits::bounds(0.0, size)); }
+    };
+    /// Slopes of the planes by (u, v).
+    using tilt_map = std::map<std::pair<std::size_t, std::size_t>, double>;
+
+    [[nodiscard]] double lower_bound(bool absorb, std::vector<plane> const& planes) const {
+        parts p{constant_,
+                std::vector<interval>(n_, traits::point(0.0)),
+                std::vector<double>(n_, 0.0),
+                {}};
+        tilt_map tilts;
+        for (auto const& t : planes) tilts[{t.u, t.v}] = t.slope;
         for (auto const& [e, c] : terms_) {
             if (!is_bounded(c)) return -HUGE_VAL;
-            std::size_t degree = 0;
-            bool even = true;
-            for (auto const k : e) {
-                degree += k;
-                even = even && k % 2 == 0;
-            }
-            if (degree == 0) {
-                total = traits::add(total, c);
-                continue;
-            }
-            auto const is_used = [](std::uint16_t k) { return k > 0; };
-            auto const u =
-                static_cast<std::size_t>(std::find_if(e.begin(), e.end(), is_used) - e.begin());
-            if (degree == 1) {
-                slope[u] = traits::add(slope[u], c);
-            } else if (degree == 2 && e[u] == 2) {
-                square[u] = lower(c);
-            } else if (degree == 2) {
-                auto const v = static_cast<std::size_t>(
-                    std::find(e.begin() + static_cast<std::ptrdiff_t>(u) + 1, e.end(), 1) -
-                    e.begin());
-                auto const tilt = tilts.find({u, v});
-                bool const rises = lower(c) > 0;
-                if (tilt == tilts.end() || !(rises || upper(c) < 0)) {
-                    mixed.push_back({u, v, mag(c)});
-                    continue;
-                }
-                // c = +-least and what is beyond it
-                double const least = rises ? lower(c) : -upper(c);
-                auto const s = traits::point(std::clamp(tilt->second, -least, least));
-                slope[u] = traits::add(slope[u], s);
-                slope[v] = traits::add(slope[v], rises ? s : traits::neg(s));
-                lose(mag(c)); // least + (mag(c) - least)
-            } else {
-                if (!even || !(lower(c) >= 0)) lose(mag(c));
-            }
+            take_term(e, c, tilts, p);
         }
-        for (auto const& [u, v, size] : mixed) {
-            double const theta =
-                absorb && square[u] > 0 && square[v] > 0 ? std::sqrt(square[u] / square[v]) : 0.0;
-            auto const half = traits::mul(traits::point(0.5), traits::point(size));
-            bool undefined = false;
-            auto const from_u = traits::mul(half, traits::point(theta));
-            auto const from_v = traits::div(half, traits::point(theta), undefined);
-            bool const fits = theta > 0 && !undefined && std::isfinite(mag(from_v)) &&
-                              upper(from_u) <= square[u] && upper(from_v) <= square[v];
-            if (!fits) {
-                lose(size);
-                continue;
-            }
-            square[u] = lower(traits::sub(traits::point(square[u]), from_u));
-            square[v] = lower(traits::sub(traits::point(square[v]), from_v));
+        for (auto const& m : p.mixed) {
+            if (!absorb || !absorb_in_squares(m, p)) p.lose(m.size);
         }
         for (std::size_t v = 0; v < n_; ++v) {
-            total = traits::add(total, least_of_parabola(mag(slope[v]), square[v]));
+            p.total = traits::add(p.total, least_of_parabola(mag(p.slope[v]), p.square[v]));
         }
-        return is_empty(total) ? -HUGE_VAL : lower(total);
+        return is_empty(p.total) ? -HUGE_VAL : lower(p.total);
+    }
+    static void take_term(powers const& e, interval const& c, tilt_map const& tilts, parts& p) {
+        std::size_t degree = 0;
+        bool even = true;
+        for (auto const k : e) {
+            degree += k;
+            even = even && k % 2 == 0;
+        }
+        if (degree == 0) {
+            p.total = traits::add(p.total, c);
+            return;
+        }
+        auto const used_from = [&e](std::size_t first) {
+            auto const at = std::find_if(e.begin() + static_cast<std::ptrdiff_t>(first), e.end(),
+                                         [](std::uint16_t k) { return k > 0; });
+            return static_cast<std::size_t>(at - e.begin());
+        };
+        auto const u = used_from(0);
+        if (degree == 1) {
+            p.slope[u] = traits::add(p.slope[u], c);
+        } else if (degree == 2 && e[u] == 2) {
+            p.square[u] = lower(c);
+        } else if (degree == 2) {
+            auto const v = used_from(u + 1);
+            auto const tilt = tilts.find({u, v});
+            bool const signed_term = lower(c) > 0 || upper(c) < 0;
+            if (tilt != tilts.end() && signed_term)
+                take_by_plane(u, v, c, tilt->second, p);
+            else
+                p.mixed.push_back({u, v, mag(c)});
+        } else if (!even || !(lower(c) >= 0)) {
+            p.lose(mag(c));
+        }
+    }
+    /// c d_u d_v by a plane.
+    /// @given  c of one sign
+    static void take_by_plane(std::size_t u, std::size_t v, interval const& c, double tilt,
+                              parts& p) {
+        // c = +-least and what is beyond it
+        bool const rises = lower(c) > 0;
+        double const least = rises ? lower(c) : -upper(c);
+        auto const s = traits::point(std::clamp(tilt, -least, least));
+        p.slope[u] = traits::add(p.slope[u], s);
+        p.slope[v] = traits::add(p.slope[v], rises ? s : traits::neg(s));
+        p.lose(mag(c)); // least + (mag(c) - least)
+    }
+    /// @returns false when the squares do not outweigh the mixed term
+    [[nodiscard]] static bool absorb_in_squares(parts::mixed_term const& m, parts& p) {
+        auto& of_u = p.square[m.u];
+        auto& of_v = p.square[m.v];
+        if (!(of_u > 0 && of_v > 0)) return false;
+        double const theta = std::sqrt(of_u / of_v);
+        auto const half = traits::mul(traits::point(0.5), traits::point(m.size));
+        bool undefined = false;
+        auto const from_u = traits::mul(half, traits::point(theta));
+        auto const from_v = traits::div(half, traits::point(theta), undefined);
+        bool const fits = theta > 0 && !undefined && std::isfinite(mag(from_v)) &&
+                          upper(from_u) <= of_u && upper(from_v) <= of_v;
+        if (!fits) return false;
+        of_u = lower(traits::sub(traits::point(of_u), from_u));
+        of_v = lower(traits::sub(traits::point(of_v), from_v));
+        return true;
     }
 
     /// Encloses the least value of \f$ b d^2 - a |d| \f$ for \f$ |d| \le 1 \f$.

@@ -206,6 +206,45 @@ struct response_verdict {
     std::vector<double> smear; ///< per parameter
 };
 
+/// What a point d in [-1, 1]^n of a part meets where output y keeps its bound: slope . d in target.
+[[nodiscard]] inline linear_constraint constraint_of(response const& known,
+                                                     local_response const& local, std::size_t y) {
+    using traits = interval_traits<interval>;
+    linear_constraint row;
+    row.gradient.resize(known.table->variables);
+    for (std::size_t v = 0; v < row.gradient.size(); ++v) {
+        row.gradient[v] = local.slope[v * known.outputs() + y];
+    }
+    row.target =
+        traits::sub(known.bounds[y], traits::add(traits::point(local.value[y]),
+                                                 traits::bounds(-local.rest[y], local.rest[y])));
+    return row;
+}
+
+/// Contracts a part by constraints of which some may fail. @returns false when nothing is left
+[[nodiscard]] inline bool contract_by(std::vector<linear_constraint> const& rows,
+                                      std::size_t may_fail, response const& known,
+                                      local_response const& local, box& parameters) {
+    using traits = interval_traits<interval>;
+    box d(known.table->variables);
+    for (std::size_t v = 0; v < d.size(); ++v) d[v] = traits::bounds(-1.0, 1.0);
+    if (!relaxed_contract(d, rows, may_fail)) return false;
+    bool left = true;
+    for (std::size_t j = 0; j < parameters.size(); ++j) {
+        auto const& side = known.unknowns.parameters[j];
+        if (side.radius == 0) continue;
+        auto const v = side.variable;
+        if (d[v].lower() == -1 && d[v].upper() == 1) continue;
+        auto const q = traits::add(traits::point(local.middle[v]),
+                                   traits::mul(traits::point(local.reach[v]), d[v]));
+        auto const p =
+            traits::add(traits::point(side.centre), traits::mul(traits::point(side.radius), q));
+        parameters[j] = traits::intersect(parameters[j], p);
+        left = left && !traits::is_empty(parameters[j]);
+    }
+    return left;
+}
+
 /// Tests a part of a response's box, and contracts it.
 /// @guarantee  no feasible parameter is removed: a point that more than q measurements exclude,
 /// each
@@ -229,28 +268,23 @@ struct response_verdict {
         auto const& bound = known.bounds[y];
         auto const& value = values[y];
         if (traits::disjoint(value, bound)) {
-            if (++result.failed > known.allowed) {
-                result.refuted = true;
-                return result;
-            }
+            result.refuted = ++result.failed > known.allowed;
+            if (result.refuted) return result;
             continue;
         }
         if (traits::subset(value, bound)) {
             ++result.held;
             continue;
         }
-        double const spread = rad(value);
-        if (!std::isfinite(spread)) {
+        if (!std::isfinite(rad(value))) {
             result.sharpness = 1;
             continue;
         }
         double const scale = 1 / std::max(rad(bound), 1e-300);
         result.blur = std::max(result.blur, known.radius[y] * scale);
-        linear_constraint row;
-        row.gradient.resize(n);
+        auto row = constraint_of(known, local, y);
         double moved = 0;
         for (std::size_t v = 0; v < n; ++v) {
-            row.gradient[v] = local.slope[v * outputs + y];
             smear[v] += std::abs(row.gradient[v]) * scale;
             if (is_parameter[v]) moved += std::abs(row.gradient[v]);
         }
@@ -261,8 +295,6 @@ struct response_verdict {
         if (radius > 0.01 * rad(bound)) {
             result.sharpness = std::max(result.sharpness, radius / (moved + local.rest[y]));
         }
-        row.target = traits::sub(bound, traits::add(traits::point(local.value[y]),
-                                                    traits::bounds(-local.rest[y], local.rest[y])));
         open.push_back(std::move(row));
     }
     result.explained = result.held + known.allowed >= known.measurements;
@@ -273,24 +305,7 @@ struct response_verdict {
     }
     if (result.explained || open.empty()) return result;
     // Measurements that certainly fail have used up a part of the budget.
-    box d(n);
-    for (std::size_t v = 0; v < n; ++v) d[v] = traits::bounds(-1.0, 1.0);
-    if (!relaxed_contract(d, open, known.allowed - result.failed)) {
-        result.refuted = true;
-        return result;
-    }
-    for (std::size_t j = 0; j < parameters.size(); ++j) {
-        auto const& side = known.unknowns.parameters[j];
-        if (side.radius == 0) continue;
-        auto const v = side.variable;
-        if (d[v].lower() == -1 && d[v].upper() == 1) continue;
-        auto const q = traits::add(traits::point(local.middle[v]),
-                                   traits::mul(traits::point(local.reach[v]), d[v]));
-        auto const p =
-            traits::add(traits::point(side.centre), traits::mul(traits::point(side.radius), q));
-        parameters[j] = traits::intersect(parameters[j], p);
-        result.refuted = result.refuted || traits::is_empty(parameters[j]);
-    }
+    result.refuted = !contract_by(open, known.allowed - result.failed, known, local, parameters);
     return result;
 }
 

@@ -43,66 +43,19 @@ public:
         channels_.resize(bound.channel_count());
         std::vector<bool> measured(channels_.size(), false);
         for (auto const& m : problem.measurements) measured[m.channel] = true;
-        std::vector<bool> leaves;
-        for (auto const& n : g.nodes()) leaves.push_back(is_leaf(n.op));
-        leaves_ = program::marked(g, leaves);
+        node_sorter sorted(g);
+        leaves_ = program::marked(g, sorted.leaves);
         for (auto const& l : leaves_.leaves()) {
             if (l.op == operation::time) clock_.push_back(l.target);
         }
-        std::vector<std::size_t> users(g.size(), 0);
         for (std::size_t c = 0; c < channels_.size(); ++c) {
-            if (!measured[c]) continue;
-            auto const below = operands_of(g, {bound.observe[c]});
-            for (std::size_t i = 0; i < g.size(); ++i) users[i] += below[i] ? 1 : 0;
+            if (measured[c]) sorted.count_users(bound.observe[c]);
         }
-        auto const timed = [&g](std::size_t i) {
-            return (g.depends(static_cast<node_id>(i)) & on_time) != 0;
-        };
-        auto const time_alone = [&g](std::size_t i) {
-            return g.depends(static_cast<node_id>(i)) == on_time;
-        };
-        auto const block = [&](auto const& wanted) {
-            std::vector<bool> operations(g.size());
-            for (std::size_t i = 0; i < g.size(); ++i) operations[i] = !leaves[i] && wanted(i);
-            return program::marked(g, operations);
-        };
-        common_ = block([&](std::size_t i) { return users[i] > 1 && !timed(i); });
+        common_ =
+            sorted.block([&](std::size_t i) { return sorted.users[i] > 1 && !sorted.timed(i); });
         for (std::size_t c = 0; c < channels_.size(); ++c) {
-            if (!measured[c]) continue;
-            auto& o = channels_[c];
-            o.value = bound.observe[c];
-            o.slopes = bound.observe_dp[c];
-            auto const below = operands_of(g, {o.value}), wanted = operands_of(g, o.slopes);
-            auto const more = [&](std::size_t i) { return wanted[i] && !below[i]; };
-            o.once = block([&](std::size_t i) { return below[i] && !timed(i) && users[i] == 1; });
-            o.slopes_once =
-                block([&](std::size_t i) { return more(i) && !timed(i) && users[i] < 2; });
-            o.time_steps =
-                block([&](std::size_t i) { return (below[i] || wanted[i]) && time_alone(i); });
-            o.steps = block([&](std::size_t i) { return below[i] && timed(i) && !time_alone(i); });
-            o.slope_steps =
-                block([&](std::size_t i) { return more(i) && timed(i) && !time_alone(i); });
-            std::vector<bool> read(g.size(), false);
-            read[o.value] = true;
-            for (auto const s : o.slopes) read[s] = true;
-            for (auto const* steps : {&o.steps, &o.slope_steps}) {
-                for (auto const& s : steps->steps()) read[s.a] = read[s.b] = true;
-            }
-            for (std::size_t i = 0; i < g.size(); ++i) {
-                if (read[i] && time_alone(i)) o.timed.push_back(static_cast<node_id>(i));
-            }
-            read.assign(g.size(), false);
-            read[o.value] = true;
-            for (auto const s : o.slopes) read[s] = true;
-            for (auto const& s : o.slope_steps.steps()) read[s.a] = read[s.b] = true;
-            for (auto const& s : o.steps.steps()) {
-                if (read[s.target]) o.kept.push_back(s.target);
-            }
-            for (std::size_t i = 0; i < g.size(); ++i) {
-                bool const varies = (g.depends(static_cast<node_id>(i)) & on_constant) != 0;
-                bool const jumps = below[i] && g.nodes()[i].op == operation::sign && varies;
-                o.differentiable = o.differentiable && !jumps;
-            }
+            if (measured[c])
+                channels_[c] = channel_of(sorted, bound.observe[c], bound.observe_dp[c]);
         }
     }
 
@@ -182,6 +135,76 @@ private:
         program once, slopes_once, time_steps, steps, slope_steps;
         bool differentiable = true;
     };
+
+    /// Tells nodes apart by what they depend on.
+    struct node_sorter {
+        graph const& g;
+        std::vector<bool> leaves;
+        std::vector<std::size_t> users; ///< how many channels use each
+
+        explicit node_sorter(graph const& of) : g(of), users(of.size(), 0) {
+            for (auto const& n : g.nodes()) leaves.push_back(is_leaf(n.op));
+        }
+        void count_users(node_id channel) {
+            auto const below = operands_of(g, {channel});
+            for (std::size_t i = 0; i < g.size(); ++i) users[i] += below[i] ? 1 : 0;
+        }
+        [[nodiscard]] bool timed(std::size_t i) const {
+            return (g.depends(static_cast<node_id>(i)) & on_time) != 0;
+        }
+        [[nodiscard]] bool time_alone(std::size_t i) const {
+            return g.depends(static_cast<node_id>(i)) == on_time;
+        }
+        template <class F>
+        [[nodiscard]] program block(F const& wanted) const {
+            std::vector<bool> operations(g.size());
+            for (std::size_t i = 0; i < g.size(); ++i) operations[i] = !leaves[i] && wanted(i);
+            return program::marked(g, operations);
+        }
+    };
+    [[nodiscard]] static channel channel_of(node_sorter const& of, node_id value,
+                                            std::vector<node_id> const& slopes) {
+        auto const& g = of.g;
+        auto const below = operands_of(g, {value}), wanted = operands_of(g, slopes);
+        auto const more = [&](std::size_t i) { return wanted[i] && !below[i]; };
+        auto const later = [&](std::size_t i) { return of.timed(i) && !of.time_alone(i); };
+        channel o;
+        o.value = value;
+        o.slopes = slopes;
+        o.once =
+            of.block([&](std::size_t i) { return below[i] && !of.timed(i) && of.users[i] == 1; });
+        o.slopes_once =
+            of.block([&](std::size_t i) { return more(i) && !of.timed(i) && of.users[i] < 2; });
+        o.time_steps =
+            of.block([&](std::size_t i) { return (below[i] || wanted[i]) && of.time_alone(i); });
+        o.steps = of.block([&](std::size_t i) { return below[i] && later(i); });
+        o.slope_steps = of.block([&](std::size_t i) { return more(i) && later(i); });
+        auto const read = read_by(g.size(), o, {&o.steps, &o.slope_steps});
+        for (std::size_t i = 0; i < g.size(); ++i) {
+            if (read[i] && of.time_alone(i)) o.timed.push_back(static_cast<node_id>(i));
+        }
+        auto const read_by_slopes = read_by(g.size(), o, {&o.slope_steps});
+        for (auto const& s : o.steps.steps()) {
+            if (read_by_slopes[s.target]) o.kept.push_back(s.target);
+        }
+        for (std::size_t i = 0; i < g.size(); ++i) {
+            bool const varies = (g.depends(static_cast<node_id>(i)) & on_constant) != 0;
+            bool const jumps = below[i] && g.nodes()[i].op == operation::sign && varies;
+            o.differentiable = o.differentiable && !jumps;
+        }
+        return o;
+    }
+    /// Which nodes are results of a channel, or what some of its programs read.
+    [[nodiscard]] static std::vector<bool> read_by(std::size_t nodes, channel const& o,
+                                                   std::vector<program const*> const& programs) {
+        std::vector<bool> read(nodes, false);
+        read[o.value] = true;
+        for (auto const s : o.slopes) read[s] = true;
+        for (auto const* p : programs) {
+            for (auto const& s : p->steps()) read[s.a] = read[s.b] = true;
+        }
+        return read;
+    }
 
     std::size_t parameters_ = 0;
     program leaves_, common_;

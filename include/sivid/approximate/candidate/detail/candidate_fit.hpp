@@ -40,6 +40,10 @@ namespace sivid {
     return result;
 }
 
+inline void keep_better(approximate_fit& found, approximate_fit other) {
+    if (other.inflation < found.inflation) found = std::move(other);
+}
+
 /// Descents end in the corners that a play has by its width: others begin beside them, until one
 /// explains.
 /// @param descend  an approximate_fitter of the problem
@@ -52,10 +56,95 @@ inline void leave_corners(identification_problem const& problem, approximate_fit
             auto beside = found.parameters;
             beside[j] = std::clamp(beside[j] + share * (side.upper() - side.lower()), side.lower(),
                                    side.upper());
-            auto other = descend({beside});
-            if (other.inflation < found.inflation) found = std::move(other);
+            keep_better(found, descend({beside}));
         }
     }
+}
+
+/// Points of a candidate: a grid over the parameters of its last effect, all others where a part
+/// of the candidate was fitted.
+class effect_grid {
+public:
+    /// @param base   the problem without effects
+    /// @param known  the part that was fitted
+    effect_grid(identification_problem const& problem, identification_problem const& base,
+                screened const& known)
+        : problem_(&problem), parameters_(problem.prior.size()), starts_(known.fit.starts) {
+        auto const first = base.prior.size();
+        std::copy(known.fit.parameters.begin(),
+                  known.fit.parameters.begin() + static_cast<std::ptrdiff_t>(first),
+                  parameters_.begin());
+        for (std::size_t j = first; j < problem.prior.size(); ++j) {
+            auto const& others = known.problem.choice.unknown;
+            auto const f = std::find(others.begin(), others.end(), problem.choice.unknown[j]);
+            if (f == others.end())
+                open_.push_back(j);
+            else
+                parameters_[j] = known.fit.parameters[static_cast<std::size_t>(f - others.begin())];
+        }
+        steps_ = open_.size() == 1 ? 9 : 4;
+        for (std::size_t k = 0; k < open_.size(); ++k) size_ *= steps_;
+        for (std::size_t e = 0; e < starts_.size(); ++e) {
+            starts_[e] = mid(problem.experiments[e].initial);
+            for (std::size_t i = 0; i < base.experiments[e].initial.size(); ++i) {
+                starts_[e][i] = known.fit.starts[e][i];
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    /// The same for all points.
+    [[nodiscard]] std::vector<std::vector<double>> const& starts() const { return starts_; }
+    [[nodiscard]] std::vector<double> operator[](std::size_t n) const {
+        auto point = parameters_;
+        for (auto const j : open_) {
+            double const share =
+                (static_cast<double>(n % steps_) + 0.5) / static_cast<double>(steps_);
+            n /= steps_;
+            auto const& side = problem_->prior[j];
+            point[j] = side.lower() + share * (side.upper() - side.lower());
+        }
+        return point;
+    }
+
+private:
+    identification_problem const* problem_;
+    std::vector<double> parameters_;
+    std::vector<std::size_t> open_; ///< the parameters that the grid is over
+    std::vector<std::vector<double>> starts_;
+    std::size_t steps_ = 1, size_ = 1;
+};
+
+/// The points of a grid from which to descend.
+struct grid_starts {
+    std::vector<double> best;
+    approximate_fit there;     ///< at the best one, roughly
+    std::vector<double> awake; ///< the best at which the effect does not sleep; or none
+    bool sleeps = true;        ///< at all of them
+};
+
+/// @param asleep  the residuals while the effect sleeps
+[[nodiscard]] inline grid_starts starts_on(effect_grid const& grid, approximate_fitter& fitter,
+                                           std::vector<std::vector<double>> const& asleep) {
+    constexpr double roughly = 0.05; // of the bounds: what rough simulations may miss
+    grid_starts result;
+    double least_awake = detail::infinity;
+    for (std::size_t n = 0; n < grid.size(); ++n) {
+        auto const point = grid[n];
+        auto const here = fitter.roughly_at(point, grid.starts());
+        bool const sleeps = alike(here.residuals, asleep, roughly) &&
+                            alike(fitter.at(point, grid.starts()).residuals, asleep);
+        result.sleeps = result.sleeps && sleeps;
+        if (!sleeps && here.inflation < least_awake) {
+            least_awake = here.inflation;
+            result.awake = point;
+        }
+        if (result.best.empty() || here.inflation < result.there.inflation) {
+            result.there = here;
+            result.best = point;
+        }
+    }
+    return result;
 }
 
 /// Fits a candidate from the best of a grid over the parameters of its last effect, the others as
@@ -81,88 +170,27 @@ inline void leave_corners(identification_problem const& problem, approximate_fit
         many ? thinned(known->fit.residuals, thinned_indices(full, many_measurements))
              : known->fit.residuals;
     approximate_fitter descend(narrowed, go_on);
-    std::vector<std::vector<double>> starts = known->fit.starts;
-    auto const first = base.prior.size();
-    approximate_fit best;
-    std::vector<double> from, awake;
-    double least_awake = detail::infinity;
-    std::vector<double> parameters(narrowed.prior.size());
-    std::copy(known->fit.parameters.begin(),
-              known->fit.parameters.begin() + static_cast<std::ptrdiff_t>(first),
-              parameters.begin());
-    for (std::size_t e = 0; e < starts.size(); ++e) {
-        auto const& initial = narrowed.experiments[e].initial;
-        starts[e] = mid(initial);
-        for (std::size_t i = 0; i < base.experiments[e].initial.size(); ++i) {
-            starts[e][i] = known->fit.starts[e][i];
-        }
-    }
-    // Which parameters stand as they were fitted, and which are open.
-    std::vector<std::size_t> open;
-    for (std::size_t j = first; j < narrowed.prior.size(); ++j) {
-        auto const& name = narrowed.choice.unknown[j];
-        auto const& others = known->problem.choice.unknown;
-        auto const f = std::find(others.begin(), others.end(), name);
-        if (f == others.end()) {
-            open.push_back(j);
-        } else {
-            auto const k = static_cast<std::size_t>(f - others.begin());
-            parameters[j] = known->fit.parameters[k];
-        }
-    }
-    constexpr double roughly = 0.05; // of the bounds: what rough simulations may miss
-    std::size_t const steps = open.size() == 1 ? 9 : 4;
-    std::size_t count = 1;
-    for (std::size_t k = 0; k < open.size(); ++k) count *= steps;
-    auto const go_to = [&](std::size_t code) { // of the grid
-        for (auto const j : open) {
-            double const share =
-                (static_cast<double>(code % steps) + 0.5) / static_cast<double>(steps);
-            code /= steps;
-            auto const& side = narrowed.prior[j];
-            parameters[j] = side.lower() + share * (side.upper() - side.lower());
-        }
-    };
-    for (std::size_t n = 0; n < count; ++n) {
-        go_to(n);
-        auto const here = descend.roughly_at(parameters, starts);
-        bool const sleeps = alike(here.residuals, reference, roughly) &&
-                            alike(descend.at(parameters, starts).residuals, reference);
-        silent = (n == 0 || silent) && sleeps;
-        if (!sleeps && here.inflation < least_awake) {
-            least_awake = here.inflation;
-            awake = parameters;
-        }
-        if (from.empty() || here.inflation < best.inflation) {
-            best = here;
-            from = parameters;
-        }
-    }
+    effect_grid const grid(narrowed, base, *known);
+    auto const from = starts_on(grid, descend, reference);
+    silent = from.sleeps;
     if (many && silent) { // the measurements that are left out may hear it
         approximate_fitter all(full, go_on);
-        for (std::size_t n = 0; n < count && silent; ++n) {
-            go_to(n);
-            silent = alike(all.at(parameters, starts).residuals, known->fit.residuals);
+        for (std::size_t n = 0; n < grid.size() && silent; ++n) {
+            silent = alike(all.at(grid[n], grid.starts()).residuals, known->fit.residuals);
         }
     }
-    auto found = descend({from});
-    if (!awake.empty() && awake != from) {
-        auto other = descend({awake});
-        if (other.inflation < found.inflation) found = std::move(other);
-    }
+    auto found = descend({from.best});
+    if (!from.awake.empty() && from.awake != from.best) keep_better(found, descend({from.awake}));
     constexpr double promising = 3; // of more effects than one
     if (found.inflation > 1 && (effects == 1 || found.inflation < promising)) {
         // What sits at the end of its prior may be stuck there.
         auto const freed = away_from_ends(problem.prior, found.parameters);
-        if (freed != found.parameters) {
-            auto other = descend({freed});
-            if (other.inflation < found.inflation) found = std::move(other);
-        }
+        if (freed != found.parameters) keep_better(found, descend({freed}));
         leave_corners(narrowed, descend, found);
     }
-    if (!(found.inflation < best.inflation)) {
+    if (!(found.inflation < from.there.inflation)) {
         auto const squares = found.squares; // the descent's, whose least inflation is no better
-        found = descend.at(from, starts);
+        found = descend.at(from.best, grid.starts());
         found.squares = squares;
     }
     return many && !found.parameters.empty()

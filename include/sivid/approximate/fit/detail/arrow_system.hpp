@@ -17,6 +17,11 @@ struct arrow_vector {
     Eigen::VectorXd global;
     std::vector<Eigen::VectorXd> local;
 
+    [[nodiscard]] std::size_t size() const {
+        auto n = global.size();
+        for (auto const& l : local) n += l.size();
+        return static_cast<std::size_t>(n);
+    }
     [[nodiscard]] bool all_finite() const {
         bool finite = global.allFinite();
         for (auto const& l : local) finite = finite && l.allFinite();

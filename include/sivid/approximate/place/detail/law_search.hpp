@@ -117,7 +117,26 @@ private:
     /// The system of everything that adapts, without the target that laws replace.
     void prepare(std::size_t replaced) {
         auto const g = at_.global.size();
-        Eigen::Index size = g;
+        Eigen::Index const size = g + keep_columns(replaced);
+        Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
+        side_ = Eigen::VectorXd::Zero(size);
+        base_ = 0;
+        designs_.clear();
+        lines_.clear();
+        Eigen::Index first = g;
+        for (std::size_t e = 0; e < residuals_.size(); ++e) {
+            add_experiment(e, first, m);
+            first += static_cast<Eigen::Index>(kept_columns_[e].size());
+        }
+        add_priors(m);
+        // More than the elimination rounds by; what nothing depends on stays where it is.
+        double const rounding = static_cast<double>(size) * std::numeric_limits<double>::epsilon();
+        for (Eigen::Index j = 0; j < size; ++j) m(j, j) += m(j, j) > 0 ? rounding * m(j, j) : 1;
+        static_cast<void>(factor_.compute(m));
+    }
+    /// Of the locals those that are not of the replaced target. @returns how many in all
+    [[nodiscard]] Eigen::Index keep_columns(std::size_t replaced) {
+        Eigen::Index all = 0;
         kept_columns_.assign(residuals_.size(), {});
         for (std::size_t e = 0; e < residuals_.size(); ++e) {
             auto const starts = static_cast<Eigen::Index>(campaign_->free_starts(e));
@@ -126,60 +145,53 @@ private:
                                std::max<std::size_t>(targets_.size(), 1);
                 if (j < starts || c != replaced) kept_columns_[e].push_back(j);
             }
-            size += static_cast<Eigen::Index>(kept_columns_[e].size());
+            all += static_cast<Eigen::Index>(kept_columns_[e].size());
         }
-        Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
-        side_ = Eigen::VectorXd::Zero(size);
-        base_ = 0;
-        designs_.clear();
-        lines_.clear();
-        Eigen::Index first = g;
-        for (std::size_t e = 0; e < residuals_.size(); ++e) {
-            auto const own = static_cast<Eigen::Index>(kept_columns_[e].size());
-            Eigen::MatrixXd a(residuals_[e].size(), g + own);
-            a.leftCols(g) = jacobians_[e].leftCols(g);
-            Eigen::VectorXd line = residuals_[e];
-            Eigen::VectorXd free = at_.local[e];
-            for (Eigen::Index k = 0; k < own; ++k) {
-                auto const j = kept_columns_[e][static_cast<std::size_t>(k)];
-                a.col(g + k) = jacobians_[e].col(g + j);
-                free[j] = 0;
-            }
-            line -= jacobians_[e].rightCols(locals_[e]) * free; // the replaced rates are taken away
-            Eigen::VectorXd const kept = at_.local[e] - free;
-            Eigen::VectorXd const pull = smooth_[e] * kept;
-            base_ += line.squaredNorm() + kept.dot(pull);
-            Eigen::MatrixXd const n = a.transpose() * a;
-            m.topLeftCorner(g, g) += n.topLeftCorner(g, g);
-            m.block(first, 0, own, g) += n.bottomLeftCorner(own, g);
-            m.block(first, first, own, own) += n.bottomRightCorner(own, own);
-            Eigen::VectorXd const b = a.transpose() * line;
-            side_.head(g) += b.head(g);
-            side_.segment(first, own) += b.tail(own);
-            for (Eigen::Index k = 0; k < own; ++k) {
-                auto const j = kept_columns_[e][static_cast<std::size_t>(k)];
-                side_[first + k] += pull[j];
-                for (Eigen::Index l = 0; l < own; ++l) {
-                    m(first + k, first + l) +=
-                        smooth_[e](j, kept_columns_[e][static_cast<std::size_t>(l)]);
-                }
-            }
-            designs_.push_back(std::move(a));
-            lines_.push_back(std::move(line));
-            first += own;
+        return all;
+    }
+    /// @param first  row of the experiment's own variables
+    void add_experiment(std::size_t e, Eigen::Index first, Eigen::MatrixXd& m) {
+        auto const g = at_.global.size();
+        auto const& columns = kept_columns_[e];
+        auto const own = static_cast<Eigen::Index>(columns.size());
+        Eigen::MatrixXd a(residuals_[e].size(), g + own);
+        a.leftCols(g) = jacobians_[e].leftCols(g);
+        Eigen::VectorXd line = residuals_[e];
+        Eigen::VectorXd free = at_.local[e];
+        for (Eigen::Index k = 0; k < own; ++k) {
+            auto const j = columns[static_cast<std::size_t>(k)];
+            a.col(g + k) = jacobians_[e].col(g + j);
+            free[j] = 0;
         }
-        // Parameters should not leave their priors by much.
-        for (Eigen::Index j = 0; j < g; ++j) {
+        line -= jacobians_[e].rightCols(locals_[e]) * free; // the replaced rates are taken away
+        Eigen::VectorXd const kept = at_.local[e] - free;
+        Eigen::VectorXd const pull = smooth_[e] * kept;
+        base_ += line.squaredNorm() + kept.dot(pull);
+        Eigen::MatrixXd const n = a.transpose() * a;
+        m.topLeftCorner(g, g) += n.topLeftCorner(g, g);
+        m.block(first, 0, own, g) += n.bottomLeftCorner(own, g);
+        m.block(first, first, own, own) += n.bottomRightCorner(own, own);
+        Eigen::VectorXd const b = a.transpose() * line;
+        side_.head(g) += b.head(g);
+        side_.segment(first, own) += b.tail(own);
+        for (Eigen::Index k = 0; k < own; ++k) {
+            auto const j = columns[static_cast<std::size_t>(k)];
+            side_[first + k] += pull[j];
+            for (Eigen::Index l = 0; l < own; ++l)
+                m(first + k, first + l) += smooth_[e](j, columns[static_cast<std::size_t>(l)]);
+        }
+        designs_.push_back(std::move(a));
+        lines_.push_back(std::move(line));
+    }
+    /// Parameters should not leave their priors by much.
+    void add_priors(Eigen::MatrixXd& m) {
+        for (Eigen::Index j = 0; j < at_.global.size(); ++j) {
             double const half = 0.5 * (campaign_->upper().global[j] - campaign_->lower().global[j]);
             double const off = at_.global[j] - campaign_->lower().global[j] - half;
             m(j, j) += 1 / (half * half);
             side_[j] += off / (half * half);
             base_ += off * off / (half * half);
         }
-        // More than the elimination rounds by; what nothing depends on stays where it is.
-        double const rounding = static_cast<double>(size) * std::numeric_limits<double>::epsilon();
-        for (Eigen::Index j = 0; j < size; ++j) m(j, j) += m(j, j) > 0 ? rounding * m(j, j) : 1;
-        static_cast<void>(factor_.compute(m));
     }
 
     /// Squares left when some columns with free factors come in.

@@ -111,16 +111,8 @@ public:
                                                    std::shared_ptr<knowledge const> const& known) {
         assessment<knowledge> says{.rest = gains};
         auto next = std::make_shared<knowledge>();
-        bool const same = known && known->by == motions_;
-        if (same) next->points = known->points;
-        open_parts open(*motions_, open_parts::aim::proof, true);
-        auto const before = known ? known->open : std::vector{motions_->cover().whole()};
-        for (auto const& p : before) {
-            auto own = motions_->cover().within(p, problem_.parameters(gains));
-            if (own.sets.empty()) continue;
-            if (!same) own.known = nullptr;
-            open.add(std::move(own));
-        }
+        if (known && known->by == motions_) next->points = known->points;
+        auto open = parts_under(gains, known.get());
         for (int round = 0;; ++round) {
             while (limit_() && open.judge_some()) {
             }
@@ -152,21 +144,8 @@ public:
         }
         parts_ += open.judged();
         if (says.verdict != box_verdict::undecided) return says;
-        std::set<std::size_t> hiding;
         says.smear.assign(gains.size(), 0.0);
-        next->by = motions_;
-        for (auto& i : open.items()) {
-            if (i.says.coarse) hiding.insert(i.says.hiding.begin(), i.says.hiding.end());
-            if (!i.says.score.empty()) {
-                auto const own = problem_.of_gains(i.says.score);
-                for (std::size_t k = 0; k < own.size(); ++k) says.smear[k] += own[k];
-            }
-            next->open.push_back(std::move(i.what));
-        }
-        if (motion_cover::most(says.smear) == motion_cover::none) says.smear.clear();
-        says.knowledge = std::move(next);
-        if (!hiding.empty() && ++refinements_ <= 6)
-            follow(finer_grid(motions_->cover().times(), hiding));
+        says.knowledge = keep(open, std::move(next), says.smear);
         return says;
     }
 
@@ -218,6 +197,37 @@ private:
         if (p.motions) p.earlier += p.motions->cover().integrations();
         p.motions = std::make_unique<judged_motions>(p.problem.slim.problem, p.problem.slim.what,
                                                      motions_->cover().times(), run_);
+    }
+    /// What is to be proved of gains: what was open, or all of it.
+    [[nodiscard]] open_parts parts_under(box const& gains, knowledge const* known) const {
+        open_parts open(*motions_, open_parts::aim::proof, true);
+        auto const before = known != nullptr ? known->open : std::vector{motions_->cover().whole()};
+        for (auto const& p : before) {
+            auto own = motions_->cover().within(p, problem_.parameters(gains));
+            if (own.sets.empty()) continue;
+            if (known == nullptr || known->by != motions_) own.known = nullptr;
+            open.add(std::move(own));
+        }
+        return open;
+    }
+    /// Keeps what is left of a box for its halves; a grid that hides too much is made finer.
+    /// @param smear  0 by gain; receives by which
+    [[nodiscard]] std::shared_ptr<knowledge const>
+    keep(open_parts& open, std::shared_ptr<knowledge> next, std::vector<double>& smear) {
+        std::set<std::size_t> hiding;
+        next->by = motions_;
+        for (auto& i : open.items()) {
+            if (i.says.coarse) hiding.insert(i.says.hiding.begin(), i.says.hiding.end());
+            if (!i.says.score.empty()) {
+                auto const own = problem_.of_gains(i.says.score);
+                for (std::size_t k = 0; k < own.size(); ++k) smear[k] += own[k];
+            }
+            next->open.push_back(std::move(i.what));
+        }
+        if (motion_cover::most(smear) == motion_cover::none) smear.clear();
+        if (!hiding.empty() && ++refinements_ <= 6)
+            follow(finer_grid(motions_->cover().times(), hiding));
+        return next;
     }
     [[nodiscard]] bool is_smallest(box const& gains) const {
         for (std::size_t k = 0; k < gains.size(); ++k) {

@@ -38,6 +38,75 @@ inline bool can_be_cut(interval const& x) {
            width(x) > 4 * normalised_unknowns::negligible * std::abs(at);
 }
 
+/// The unknowns q of a response over a box, q = middle + reach d for d in \f$ [-1,1]^n \f$.
+struct normalised_box {
+    std::vector<double> middle, reach;
+
+    normalised_box(response const& of, box const& initial, box const& parameters)
+        : middle(of.table->variables, 0.0), reach(of.table->variables, 1.0) {
+        add(of.unknowns.initial, initial);
+        add(of.unknowns.parameters, parameters);
+    }
+
+private:
+    void add(std::vector<normalised_unknowns::side> const& sides, box const& x) {
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            auto const& side = sides[i];
+            if (side.radius > 0)
+                paving_detail::normalise(side, x[i], middle[side.variable], reach[side.variable]);
+        }
+    }
+};
+
+/// The box of d, as middles and radii, that holds what a set and a part have in common.
+struct common_box {
+    std::vector<double> at, by;
+
+    explicit common_box(std::size_t variables) : at(variables, 0.0), by(variables, 1.0) {}
+    common_box(box const& set, box const& part, response const& known, normalised_box const& d)
+        : common_box(d.middle.size()) {
+        for (std::size_t j = 0; j < set.size(); ++j) {
+            auto const& side = known.unknowns.parameters[j];
+            auto const v = side.variable;
+            if (side.radius == 0 || !(d.reach[v] > 0)) continue;
+            auto const both = traits::intersect(set[j], part[j]);
+            if (traits::is_empty(both)) continue;
+            bool undefined = false;
+            auto const range = traits::intersect(
+                traits::div(traits::sub(normalised(side, both), traits::point(d.middle[v])),
+                            traits::point(d.reach[v]), undefined),
+                traits::bounds(-1.0, 1.0));
+            if (undefined || traits::is_empty(range)) continue;
+            at[v] = mid(range);
+            by[v] = rad(range);
+        }
+    }
+
+private:
+    using traits = interval_traits<interval>;
+};
+
+/// Widens the bounds of a view by the affine parts over a box of d, and the rests.
+inline void widen(motion_cover::view& v, std::vector<double> const& value, common_box const& d) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    auto const count = v.low.size(), variables = d.at.size();
+    for (std::size_t y = 0; y < count; ++y) {
+        double middle = value[y], spread = 0, size = std::abs(middle);
+        for (std::size_t q = 0; q < variables; ++q) {
+            double const s = v.slope[q * count + y];
+            middle += s * d.at[q];
+            spread += std::abs(s) * d.by[q];
+            size += std::abs(s);
+        }
+        double const error = 1e-15 * (2 * static_cast<double>(variables) + 8) * size;
+        double const reached = spread + v.rest[y] + error;
+        double const up = (middle + reached) + 1e-15 * std::abs(middle + reached);
+        double const down = (middle - reached) - 1e-15 * std::abs(middle - reached);
+        v.low[y] = std::min(v.low[y], std::isfinite(down) ? down : -infinity);
+        v.high[y] = std::max(v.high[y], std::isfinite(up) ? up : infinity);
+    }
+}
+
 } // namespace decision_detail
 
 SIVID_DECL motion_cover::motion_cover(prediction_problem const& problem,
@@ -131,25 +200,12 @@ SIVID_DECL void motion_cover::follow(knowledge& k) {
 }
 
 SIVID_DECL motion_cover::view motion_cover::look(part const& p, bool roughly) const {
-    using traits = interval_traits<interval>;
     view v;
     if (!p.known) return v;
     auto const& known = *p.known->answer;
     auto const variables = known.table->variables;
-    std::vector<double> middle(variables, 0.0), reach(variables, 1.0);
-    for (std::size_t i = 0; i < p.initial.size(); ++i) {
-        auto const& side = known.unknowns.initial[i];
-        if (side.radius > 0)
-            paving_detail::normalise(side, p.initial[i], middle[side.variable],
-                                     reach[side.variable]);
-    }
-    for (std::size_t j = 0; j < p.parameters.size(); ++j) {
-        auto const& side = known.unknowns.parameters[j];
-        if (side.radius > 0)
-            paving_detail::normalise(side, p.parameters[j], middle[side.variable],
-                                     reach[side.variable]);
-    }
-    auto const local = expand(known, middle, reach);
+    decision_detail::normalised_box const unknowns(known, p.initial, p.parameters);
+    auto const local = expand(known, unknowns.middle, unknowns.reach);
     auto const count = p.known->reached * flow_.channels();
     auto const all = known.outputs();
     v.reached = p.known->reached;
@@ -162,41 +218,13 @@ SIVID_DECL motion_cover::view motion_cover::look(part const& p, bool roughly) co
     constexpr double infinity = std::numeric_limits<double>::infinity();
     v.low.assign(count, infinity);
     v.high.assign(count, -infinity);
-    // The affine parts over each set, in d = (q - middle) / reach.
-    auto const over = [&](box const* set) {
-        std::vector<double> at(variables, 0.0), by(variables, 1.0);
-        for (std::size_t j = 0; set != nullptr && j < set->size(); ++j) {
-            auto const& side = known.unknowns.parameters[j];
-            if (side.radius == 0 || !(reach[side.variable] > 0)) continue;
-            auto const common = traits::intersect((*set)[j], p.parameters[j]);
-            if (traits::is_empty(common)) continue;
-            auto const q = decision_detail::normalised(side, common);
-            bool undefined = false;
-            auto d = traits::div(traits::sub(q, traits::point(middle[side.variable])),
-                                 traits::point(reach[side.variable]), undefined);
-            d = traits::intersect(d, traits::bounds(-1.0, 1.0));
-            if (undefined || traits::is_empty(d)) continue;
-            at[side.variable] = mid(d);
-            by[side.variable] = rad(d);
-        }
-        for (std::size_t y = 0; y < count; ++y) {
-            double value = local.value[y], spread = 0, size = std::abs(value);
-            for (std::size_t q = 0; q < variables; ++q) {
-                double const s = v.slope[q * count + y];
-                value += s * at[q];
-                spread += std::abs(s) * by[q];
-                size += std::abs(s);
-            }
-            double const error = 1e-15 * (2 * static_cast<double>(variables) + 8) * size;
-            double const reached = spread + local.rest[y] + error;
-            double const up = (value + reached) + 1e-15 * std::abs(value + reached);
-            double const down = (value - reached) - 1e-15 * std::abs(value - reached);
-            v.low[y] = std::min(v.low[y], std::isfinite(down) ? down : -infinity);
-            v.high[y] = std::max(v.high[y], std::isfinite(up) ? up : infinity);
-        }
-    };
-    if (p.sets.empty() || roughly) over(nullptr);
-    for (std::size_t k = 0; k < p.sets.size() && !roughly; ++k) over(&problem_->sets[p.sets[k]]);
+    if (p.sets.empty() || roughly)
+        decision_detail::widen(v, local.value, decision_detail::common_box(variables));
+    for (std::size_t k = 0; k < p.sets.size() && !roughly; ++k) {
+        decision_detail::common_box const common(problem_->sets[p.sets[k]], p.parameters, known,
+                                                 unknowns);
+        decision_detail::widen(v, local.value, common);
+    }
     return v;
 }
 

@@ -68,73 +68,77 @@ public:
                                                 std::size_t last) const {
         using kind = requirement::kind;
         auto const& p = what_->parts[index];
-        std::vector<truth> result(last - first + 1);
         switch (p.what) {
         case kind::comparison:
-            for (std::size_t s = first; s <= last; ++s) {
-                result[s - first] =
-                    truth_of_margin(b_->low[p.comparison][s], b_->high[p.comparison][s], p.strict,
-                                    {p.comparison, s});
-            }
-            break;
+            return of_comparison(p, first, last);
         case kind::negation:
-            result = (*this)(p.first, first, last);
-            for (auto& x : result) x = opposite(x);
-            break;
+            return opposites((*this)(p.first, first, last));
         case kind::conjunction:
-        case kind::disjunction: {
-            result = (*this)(p.first, first, last);
-            auto const other = (*this)(p.second, first, last);
-            for (std::size_t k = 0; k < result.size(); ++k) {
-                if (p.what == kind::conjunction)
-                    both(result[k], other[k]);
-                else
-                    either(result[k], other[k]);
-            }
-            break;
-        }
-        case kind::provided: {
-            result = (*this)(p.first, first, last);
-            auto const condition = (*this)(p.second, first, last);
-            for (std::size_t k = 0; k < result.size(); ++k) {
-                both(result[k], condition[k]);
-                result[k].kept = result[k].kept && condition[k].certain;
-            }
-            break;
-        }
+        case kind::disjunction:
+        case kind::provided:
+            return combined(p, first, last);
         case kind::at: {
             auto const s = segment_at(p.from);
-            auto const there = (*this)(p.first, s, s).front();
-            std::fill(result.begin(), result.end(), there);
-            break;
+            return std::vector(last - first + 1, (*this)(p.first, s, s).front());
         }
         case kind::always:
-        case kind::eventually: {
-            auto const from = touched(first, p).first, to = touched(last, p).second;
-            auto of = (*this)(p.first, from, to);
-            bool const some = p.what == kind::eventually;
-            if (some)
-                for (auto& x : of) x = opposite(x);
-            for (std::size_t s = first; s <= last; ++s) {
-                auto& all = result[s - first] = lowest(of, from, s, p);
-                if (some) all = opposite(all);
-            }
-            break;
-        }
+        case kind::eventually:
+            return over_windows(p, first, last);
         case kind::until: {
+            std::vector<truth> result;
             auto const to = touched(last, p).second;
             auto const before = (*this)(p.first, first, to);
             auto const after = (*this)(p.second, first, to);
             for (std::size_t s = first; s <= last; ++s)
-                result[s - first] = until(before, after, first, s, p);
-            break;
+                result.push_back(until(before, after, first, s, p));
+            return result;
         }
         }
-        return result;
+        return std::vector<truth>(last - first + 1);
     }
 
 private:
     using range = std::pair<std::size_t, std::size_t>;
+
+    [[nodiscard]] std::vector<truth> of_comparison(requirement::part const& p, std::size_t first,
+                                                   std::size_t last) const {
+        std::vector<truth> result;
+        for (std::size_t s = first; s <= last; ++s) {
+            result.push_back(truth_of_margin(b_->low[p.comparison][s], b_->high[p.comparison][s],
+                                             p.strict, {p.comparison, s}));
+        }
+        return result;
+    }
+    [[nodiscard]] static std::vector<truth> opposites(std::vector<truth> of) {
+        for (auto& x : of) x = opposite(x);
+        return of;
+    }
+    /// Of two parts: both, either, or the first one provided that the second holds.
+    [[nodiscard]] std::vector<truth> combined(requirement::part const& p, std::size_t first,
+                                              std::size_t last) const {
+        using kind = requirement::kind;
+        auto result = (*this)(p.first, first, last);
+        auto const other = (*this)(p.second, first, last);
+        for (std::size_t k = 0; k < result.size(); ++k) {
+            if (p.what == kind::disjunction)
+                either(result[k], other[k]);
+            else
+                both(result[k], other[k]);
+            if (p.what == kind::provided) result[k].kept = result[k].kept && other[k].certain;
+        }
+        return result;
+    }
+    /// Always, or not always the contrary.
+    [[nodiscard]] std::vector<truth> over_windows(requirement::part const& p, std::size_t first,
+                                                  std::size_t last) const {
+        bool const some = p.what == requirement::kind::eventually;
+        auto const from = touched(first, p).first, to = touched(last, p).second;
+        auto of = (*this)(p.first, from, to);
+        if (some) of = opposites(std::move(of));
+        std::vector<truth> result;
+        for (std::size_t s = first; s <= last; ++s) result.push_back(lowest(of, from, s, p));
+        return some ? opposites(std::move(result)) : result;
+    }
 
     /// The segment that holds an instant.
     [[nodiscard]] std::size_t segment_at(double t) const {

@@ -73,6 +73,8 @@ private:
         box start; ///< holds the state at `from`
         std::shared_ptr<response const> answer = nullptr;
         double blur = 0; ///< the largest radius of an output against its bound
+        /// Of the next run, and the longest it has had: to measurements that come so late.
+        double length = 0, longest = 0;
     };
 
     void nothing_is_left() { result_.rest = empty_box(result_.rest.size()); }
@@ -260,89 +262,109 @@ private:
     void contract_together(std::vector<window> windows) {
         constexpr std::size_t most_stretches = 3;
         std::size_t idle = 0, stretched = 0; // rounds in a row, in all
-        std::vector<double> lengths;
-        for (auto const& w : windows) lengths.push_back(w.to - w.from);
-        auto longest = lengths; // that each has had
+        for (auto& w : windows) w.length = w.longest = w.to - w.from;
         while (!windows.empty() && limit_()) {
             if (options_.equations && result_.rounds > 0 && !know(windows)) return;
             auto const before = result_.rest;
-            auto const count = windows.size();
-            std::vector<std::vector<window*>> together; // eight of one experiment at a time
-            for (std::size_t k = 0; k < count; ++k) {
-                auto& w = windows[k];
-                w.to = end_before(records_[w.experiment], w.from, lengths[k]);
-                bool const joins = !together.empty() && together.back().size() < 8 &&
-                                   together.back().front()->experiment == w.experiment;
-                if (!joins) together.emplace_back();
-                together.back().push_back(&w);
-            }
-            options_.workers(together.size(), [&](std::size_t k) { run(together[k]); });
-            result_.windows += count;
+            carry(windows);
             if (!limit_()) return; // what was carried may be cut short
-            response_list known;
-            std::vector<box> starts;
-            std::vector<double> blurs;
-            for (auto const& w : windows) {
-                blurs.push_back(w.blur);
-                known.push_back(w.answer);
-                starts.push_back(w.start);
-                result_.longest = std::max(result_.longest, w.to - w.from);
-            }
-            lifted_program const program(known, before, starts, options_.share);
-            options_.workers(before.size(), [&](std::size_t j) {
-                if (!(rad(before[j]) > 0) || !limit_()) return;
-                result_.rest[j] = program.contracted(j, before[j]);
-            });
+            contract_parameters(windows);
             ++result_.rounds;
-            if (options_.keep_responses) {
-                result_.responses = known;
-                result_.from = starts;
-            }
-            if (result_.empty()) return nothing_is_left();
-            std::vector<char> left(count, 1); // by window: of its start
-            options_.workers(count, [&](std::size_t k) {
-                if (limit_()) left[k] = contract_start(windows[k]) ? 1 : 0;
-            });
-            bool grown = false;
-            for (std::size_t k = 0; k < count; ++k) {
-                auto const& w = windows[k];
-                if (left[k] == 0) return nothing_is_left();
-                if (w.from == problem_->experiments[w.experiment].begin) {
-                    result_.starts[w.experiment] = w.start;
-                }
-                bool const ends = !(w.to < last_sample(w.experiment));
-                if (w.blur < 1 && !ends && lengths[k] < options_.longest) {
-                    lengths[k] = std::min((w.blur < 0.5 ? 2 : 1.35) * lengths[k], options_.longest);
-                    // Shrunk by a fifth, then stretched: 8 % more each time is no growth.
-                    grown = grown || lengths[k] > 1.1 * longest[k];
-                    longest[k] = std::max(longest[k], lengths[k]);
-                } else if (!(w.blur < 4)) {
-                    lengths[k] *= 0.8;
-                }
-            }
-            std::nth_element(blurs.begin(),
-                             blurs.begin() + static_cast<std::ptrdiff_t>(blurs.size() / 2),
-                             blurs.end());
-            double const median = blurs[blurs.size() / 2];
-            if (median < 0.02) degree_ = 2;
-            if (!(median < 0.5)) degree_ = highest_degree();
+            if (result_.empty() || !contract_starts(windows)) return nothing_is_left();
+            bool const grown = grow(windows);
+            double const blur = median_blur(windows);
+            if (blur < 0.02) degree_ = 2;
+            if (!(blur < 0.5)) degree_ = highest_degree();
             double const volume = relative_volume(result_.rest, before).upper();
             double const side = std::pow(volume, 1 / static_cast<double>(before.size()));
             idle = side > 1 - options_.gain && !grown ? idle + 1 : 0;
             if (idle < options_.patience) continue;
-            // Longer windows see more, and may be worth their blur.
-            if (stretched == most_stretches) break;
-            bool any = false;
-            for (std::size_t k = 0; k < count; ++k) {
-                auto const& w = windows[k];
-                if (!(w.blur < 4) || !(w.to < last_sample(w.experiment))) continue;
-                lengths[k] = std::min(1.35 * (w.to - w.from), options_.longest);
-                any = true;
-            }
-            if (!any) break;
+            if (stretched == most_stretches || !stretch(windows)) break;
             ++stretched;
             idle = 0;
         }
+    }
+    /// Runs all windows, eight of one experiment at a time.
+    void carry(std::vector<window>& windows) {
+        std::vector<std::vector<window*>> together;
+        for (auto& w : windows) {
+            w.to = end_before(records_[w.experiment], w.from, w.length);
+            bool const joins = !together.empty() && together.back().size() < 8 &&
+                               together.back().front()->experiment == w.experiment;
+            if (!joins) together.emplace_back();
+            together.back().push_back(&w);
+        }
+        options_.workers(together.size(), [&](std::size_t k) { run(together[k]); });
+        result_.windows += windows.size();
+    }
+    /// Contracts the parameters by all windows at once.
+    void contract_parameters(std::vector<window> const& windows) {
+        response_list known;
+        std::vector<box> starts;
+        for (auto const& w : windows) {
+            known.push_back(w.answer);
+            starts.push_back(w.start);
+            result_.longest = std::max(result_.longest, w.to - w.from);
+        }
+        auto const before = result_.rest;
+        lifted_program const program(known, before, starts, options_.share);
+        options_.workers(before.size(), [&](std::size_t j) {
+            if (!(rad(before[j]) > 0) || !limit_()) return;
+            result_.rest[j] = program.contracted(j, before[j]);
+        });
+        if (options_.keep_responses) {
+            result_.responses = known;
+            result_.from = starts;
+        }
+    }
+    /// Contracts each window's start by itself. @returns false when nothing is left of one
+    [[nodiscard]] bool contract_starts(std::vector<window>& windows) {
+        std::vector<char> left(windows.size(), 1);
+        options_.workers(windows.size(), [&](std::size_t k) {
+            if (limit_()) left[k] = contract_start(windows[k]) ? 1 : 0;
+        });
+        for (std::size_t k = 0; k < windows.size(); ++k) {
+            auto const& w = windows[k];
+            if (left[k] == 0) return false;
+            if (w.from == problem_->experiments[w.experiment].begin) {
+                result_.starts[w.experiment] = w.start;
+            }
+        }
+        return true;
+    }
+    /// Lengthens the windows that are sharp and shortens those that are not. @returns whether one
+    /// becomes longer than it ever was
+    [[nodiscard]] bool grow(std::vector<window>& windows) const {
+        bool grown = false;
+        for (auto& w : windows) {
+            bool const ends = !(w.to < last_sample(w.experiment));
+            if (w.blur < 1 && !ends && w.length < options_.longest) {
+                w.length = std::min((w.blur < 0.5 ? 2 : 1.35) * w.length, options_.longest);
+                // Shrunk by a fifth, then stretched: 8 % more each time is no growth.
+                grown = grown || w.length > 1.1 * w.longest;
+                w.longest = std::max(w.longest, w.length);
+            } else if (!(w.blur < 4)) {
+                w.length *= 0.8;
+            }
+        }
+        return grown;
+    }
+    /// Longer windows see more, and may be worth their blur. @returns false when none can be longer
+    [[nodiscard]] bool stretch(std::vector<window>& windows) const {
+        bool any = false;
+        for (auto& w : windows) {
+            if (!(w.blur < 4) || !(w.to < last_sample(w.experiment))) continue;
+            w.length = std::min(1.35 * (w.to - w.from), options_.longest);
+            any = true;
+        }
+        return any;
+    }
+    [[nodiscard]] static double median_blur(std::vector<window> const& windows) {
+        std::vector<double> blurs;
+        for (auto const& w : windows) blurs.push_back(w.blur);
+        auto const middle = blurs.begin() + static_cast<std::ptrdiff_t>(blurs.size() / 2);
+        std::nth_element(blurs.begin(), middle, blurs.end());
+        return *middle;
     }
 
     /// Terms of degree 3 grow with the cube of the unknowns. Windows that follow others begin in

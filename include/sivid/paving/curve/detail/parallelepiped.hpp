@@ -93,55 +93,74 @@ struct parallelepiped {
             strips.push_back({std::vector<double>(n, 0.0), traits::bounds(-1.0, 1.0)});
             strips.back().slope[k] = 1;
         }
-        auto const index = [](std::size_t k) { return static_cast<Eigen::Index>(k); };
-        Eigen::MatrixXd rows(index(n), index(n));
-        std::vector<interval> ranges;
+        std::vector<strip> taken;
         std::vector<std::vector<double>> across; // orthonormal
         double left = 1;                         // of the volume
-        for (std::size_t taken = 0; taken < n; ++taken) {
-            double thinnest = HUGE_VAL;
-            strip const* best = nullptr;
-            std::vector<double> direction;
-            for (auto const& s : strips) {
-                auto rest = s.slope;
-                double const whole = norm(rest);
-                for (auto const& q : across) {
-                    double dot = 0;
-                    for (std::size_t k = 0; k < n; ++k) dot += rest[k] * q[k];
-                    for (std::size_t k = 0; k < n; ++k) rest[k] -= dot * q[k];
-                }
-                double const length = norm(rest);
-                if (!(length > 1e-6 * whole)) continue;
-                double const thickness = rad(s.range) / length;
-                if (!(thickness < thinnest)) continue;
-                thinnest = thickness;
-                best = &s;
-                for (auto& c : rest) c /= length;
-                direction = std::move(rest);
-            }
-            if (best == nullptr) return *this;
-            for (std::size_t k = 0; k < n; ++k) rows(index(taken), index(k)) = best->slope[k];
-            ranges.push_back(best->range);
-            across.push_back(std::move(direction));
-            left *= thinnest;
+        while (taken.size() < n) {
+            auto thinnest = thinnest_of(strips, across);
+            if (thinnest.of == nullptr) return *this;
+            taken.push_back(*thinnest.of);
+            across.push_back(std::move(thinnest.across));
+            left *= thinnest.thickness;
         }
         if (!(left < 0.9)) return *this;
-        // d = X y - (X R - 1) d for y = R d
-        Eigen::MatrixXd const x = approximate_inverse(rows);
-        parallelepiped result{middle, slack, side, volume * left};
-        for (std::size_t k = 0; k < n; ++k) {
-            auto error = traits::point(0.0);
-            for (std::size_t l = 0; l < n; ++l) {
-                auto e = traits::point(k == l ? -1.0 : 0.0);
-                for (std::size_t i = 0; i < n; ++i) {
-                    e = traits::add(e, traits::mul(traits::point(x(index(k), index(i))),
-                                                   traits::point(rows(index(i), index(l)))));
-                }
-                error = traits::add(error, traits::abs(e));
+        auto result = where_all_meet(taken);
+        if (!result) return *this;
+        result->volume = volume * left;
+        return result;
+    }
+
+private:
+    static constexpr double unit = std::numeric_limits<double>::epsilon();
+
+    [[nodiscard]] static Eigen::Index index(std::size_t k) { return static_cast<Eigen::Index>(k); }
+
+    struct thin_strip {
+        strip const* of = nullptr;
+        std::vector<double> across; ///< of length 1
+        double thickness = HUGE_VAL;
+    };
+    /// Of strips that are not spanned by the directions: the thinnest across to them.
+    /// @param directions  orthonormal
+    [[nodiscard]] static thin_strip
+    thinnest_of(std::vector<strip> const& strips,
+                std::vector<std::vector<double>> const& directions) {
+        thin_strip thinnest;
+        for (auto const& s : strips) {
+            auto rest = s.slope;
+            double const whole = norm(rest);
+            for (auto const& q : directions) {
+                double dot = 0;
+                for (std::size_t k = 0; k < q.size(); ++k) dot += rest[k] * q[k];
+                for (std::size_t k = 0; k < q.size(); ++k) rest[k] -= dot * q[k];
             }
-            if (!(error.upper() < 1e-6)) return *this; // nor where it is no number
+            double const length = norm(rest);
+            if (!(length > 1e-6 * whole)) continue;
+            double const thickness = rad(s.range) / length;
+            if (!(thickness < thinnest.thickness)) continue;
+            for (auto& c : rest) c /= length;
+            thinnest = {&s, std::move(rest), thickness};
+        }
+        return thinnest;
+    }
+
+    /// Covers the points of n strips \f$ R d \in ranges \f$ for d in \f$ [-1,1]^n \f$.
+    ///   For y = R d and X near the inverse of R: d = X y - (X R - 1) d.
+    /// @returns nothing where no such X is known
+    [[nodiscard]] std::optional<parallelepiped>
+    where_all_meet(std::vector<strip> const& strips) const {
+        auto const n = size();
+        Eigen::MatrixXd rows(index(n), index(n));
+        for (std::size_t l = 0; l < n; ++l) {
+            for (std::size_t k = 0; k < n; ++k) rows(index(l), index(k)) = strips[l].slope[k];
+        }
+        Eigen::MatrixXd const x = approximate_inverse(rows);
+        parallelepiped result{middle, slack, side, volume};
+        for (std::size_t k = 0; k < n; ++k) {
+            double const error = row_error(x, rows, k);
+            if (!(error < 1e-6)) return std::nullopt; // nor where it is no number
             for (std::size_t j = 0; j < n; ++j) {
-                result.slack[j] += std::abs(side[k][j]) * error.upper() * (1 + 4 * unit);
+                result.slack[j] += std::abs(side[k][j]) * error * (1 + 4 * unit);
             }
         }
         for (std::size_t j = 0; j < n; ++j) {
@@ -152,7 +171,8 @@ struct parallelepiped {
                     sum += side[k][j] * x(index(k), index(l));
                     terms += std::abs(side[k][j] * x(index(k), index(l)));
                 }
-                double const centre = mid(ranges[l]), reach = rad(ranges[l]) * (1 + 4 * unit);
+                auto const& range = strips[l].range;
+                double const centre = mid(range), reach = rad(range) * (1 + 4 * unit);
                 result.middle[j] += sum * centre;
                 result.side[l][j] = sum * reach;
                 size += terms * (std::abs(centre) + reach);
@@ -162,9 +182,20 @@ struct parallelepiped {
         }
         return result;
     }
-
-private:
-    static constexpr double unit = std::numeric_limits<double>::epsilon();
+    /// At least the sum of sizes in row k of X R - 1.
+    [[nodiscard]] static double row_error(Eigen::MatrixXd const& x, Eigen::MatrixXd const& rows,
+                                          std::size_t k) {
+        auto error = traits::point(0.0);
+        for (Eigen::Index l = 0; l < rows.cols(); ++l) {
+            auto e = traits::point(index(k) == l ? -1.0 : 0.0);
+            for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+                e = traits::add(
+                    e, traits::mul(traits::point(x(index(k), i)), traits::point(rows(i, l))));
+            }
+            error = traits::add(error, traits::abs(e));
+        }
+        return error.upper();
+    }
 
     [[nodiscard]] static double norm(std::vector<double> const& x) {
         double sum = 0;

@@ -72,20 +72,43 @@ public:
             }
         }
         result.mean = by_powers(chebyshev_coefficients(result.middles), *degree);
-        std::vector<double> weight;
+        auto const weight = weights_by(visited, result, x);
         double size = 0; // of the curve
-        for (std::size_t i = 0; i < n; ++i) {
-            double near = 0;
-            for (double const z : visited) {
-                near += std::abs((z - result.centre) * result.scale - x[i]) < 0.05 ? 10 : 0;
-            }
-            weight.push_back(
-                std::sqrt(near / std::max<double>(1, static_cast<double>(visited.size())) + 0.02));
-            size = std::hypot(size, result.middles[i] * weight[i]);
-        }
+        for (std::size_t i = 0; i < n; ++i) size = std::hypot(size, result.middles[i] * weight[i]);
         for (auto& row : rows) {
             for (std::size_t i = 0; i < n; ++i) row[i] = (row[i] - result.middles[i]) * weight[i];
         }
+        add_shapes(rows, weight, negligible * size, *degree, result);
+        if (result.shapes.empty()) return std::nullopt;
+        return result;
+    }
+
+private:
+    static constexpr std::size_t most_shapes = 6;
+    static constexpr std::size_t most_degree = 40;
+
+    /// Of each node: where arguments are visited, more is asked for.
+    [[nodiscard]] static std::vector<double> weights_by(std::vector<double> const& visited,
+                                                        curve_shapes const& s,
+                                                        std::vector<double> const& x) {
+        std::vector<double> weight;
+        for (double const node : x) {
+            double near = 0;
+            for (double const z : visited) {
+                near += std::abs((z - s.centre) * s.scale - node) < 0.05 ? 10 : 0;
+            }
+            weight.push_back(
+                std::sqrt(near / std::max<double>(1, static_cast<double>(visited.size())) + 0.02));
+        }
+        return weight;
+    }
+    /// The principal directions of curves, of which none reaches further than 1.
+    /// @param rows        weighted deviations from the middle, by curve
+    /// @param negligible  how far a direction reaches that is left out
+    static void add_shapes(std::vector<std::vector<double>> const& rows,
+                           std::vector<double> const& weight, double negligible, std::size_t degree,
+                           curve_shapes& result) {
+        auto const n = weight.size();
         Eigen::MatrixXd all(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(n));
         for (std::size_t k = 0; k < rows.size(); ++k) {
             all.row(static_cast<Eigen::Index>(k)) =
@@ -100,23 +123,16 @@ public:
                 for (std::size_t i = 0; i < n; ++i) sum += row[i] * v[i];
                 reach = std::max(reach, std::abs(sum));
             }
-            if (!(reach > negligible * size)) break;
+            if (!(reach > negligible)) break;
             std::vector<double> values, sum;
             for (std::size_t i = 0; i < n; ++i) {
                 values.push_back(v[i] / weight[i] * reach);
                 sum.push_back(v[i] * weight[i] / reach);
             }
-            result.shapes.push_back(by_powers(chebyshev_coefficients(values), *degree));
+            result.shapes.push_back(by_powers(chebyshev_coefficients(values), degree));
             result.weights.push_back(std::move(sum));
         }
-        if (result.shapes.empty()) return std::nullopt;
-        return result;
     }
-
-private:
-    static constexpr std::size_t most_shapes = 6;
-    static constexpr std::size_t most_degree = 40;
-
     [[nodiscard]] static std::vector<double> scaled_nodes(curve_shapes const& s,
                                                           std::vector<double> const& x) {
         std::vector<double> z;

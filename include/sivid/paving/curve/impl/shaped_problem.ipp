@@ -55,6 +55,18 @@ struct visited_arguments {
     }
 };
 
+/// What the unknowns of a curve are called after: nothing of the user's own.
+[[nodiscard]] inline std::string curve_name(model_description const& own, std::size_t number) {
+    auto const taken = [&own](std::string const& name) {
+        auto const called = [&name](auto const& item) { return item.name == name; };
+        return std::any_of(own.constants.begin(), own.constants.end(), called) ||
+               std::any_of(own.inputs.begin(), own.inputs.end(), called);
+    };
+    return model_detail::unused_name(
+        "curve " + std::to_string(number),
+        [&taken](std::string const& n) { return taken("rest of " + n) || taken(n + " shape 1"); });
+}
+
 } // namespace paving_detail
 
 SIVID_DECL std::optional<shaped_problem>
@@ -116,18 +128,9 @@ SIVID_DECL identification_problem shaped_problem::posed() const {
         prior.push_back(parameters_[j]);
     }
     result.experiments = experiments_;
-    std::vector<std::size_t> first;                      // coefficient of each curve
-    auto const taken = [this](std::string const& name) { // by the user's own
-        auto const called = [&name](auto const& item) { return item.name == name; };
-        auto const& own = model_.about;
-        return std::any_of(own.constants.begin(), own.constants.end(), called) ||
-               std::any_of(own.inputs.begin(), own.inputs.end(), called);
-    };
+    std::vector<std::size_t> first; // coefficient of each curve
     for (auto const& c : curves_) {
-        auto const name = model_detail::unused_name(
-            "curve " + std::to_string(first.size() + 1), [&taken](std::string const& n) {
-                return taken("rest of " + n) || taken(n + " shape 1");
-            });
+        auto const name = paving_detail::curve_name(model_.about, first.size() + 1);
         first.push_back(prior.size());
         for (std::size_t j = 0; j < c.shapes.count(); ++j) {
             about.constants.push_back(

@@ -303,6 +303,43 @@ started_near(identification_problem posed, std::size_t fitted,
     return paving.has_outer() ? intersect(paving.outer_hull(), start) : start;
 }
 
+/// The hold-out inflation at the witness of a fit.
+[[nodiscard]] inline inflation_bound bound_at_witness(identification_problem holdout,
+                                                      verified_witness const& witness,
+                                                      inflation_options options) {
+    holdout.prior = point_box(witness.parameters);
+    options.only_verdict = false;
+    options.seconds *= 0.3;
+    options.boxes /= 3;
+    return bound_inflation(holdout, nullptr, options);
+}
+
+/// Whether starts are uncertain, and likely ones are known.
+[[nodiscard]] inline bool may_start_near(identification_problem const& holdout,
+                                         std::vector<std::vector<double>> const& likely_starts) {
+    return has_uncertain_starts(holdout) &&
+           std::equal(holdout.experiments.begin(), holdout.experiments.end(), likely_starts.begin(),
+                      likely_starts.end(), [](experiment const& e, auto const& likely) {
+                          return e.initial.size() == likely.size();
+                      });
+}
+
+/// Takes over what a search proved. @returns false when no parameter fits after all: what holds at
+/// the witness holds at all that do
+[[nodiscard]] inline bool take(holdout_bound& result, holdout_range const& search) {
+    auto const found = search.range();
+    result.boxes += search.tested();
+    result.integrations += search.integrations();
+    if (!is_empty(found)) {
+        if (result.outputs.empty() || found.upper() < result.over_fits.upper())
+            result.outputs = search.outputs();
+        result.over_fits = intersect(result.over_fits, found);
+        if (!is_empty(result.over_fits)) return true;
+    }
+    result.over_fits = result.at_witness;
+    return false;
+}
+
 } // namespace paving_detail
 
 SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
@@ -324,13 +361,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
     timely.test = limited(options.test, in_time);
     holdout_bound result;
     if (fitted.witness) {
-        auto there = holdout;
-        there.prior = point_box(fitted.witness->parameters);
-        auto brief = options;
-        brief.only_verdict = false;
-        brief.seconds = 0.3 * options.seconds;
-        brief.boxes = options.boxes / 3;
-        auto const found = bound_inflation(there, nullptr, brief);
+        auto const found = paving_detail::bound_at_witness(holdout, *fitted.witness, options);
         result.at_witness = found.value;
         result.boxes += found.boxes;
         result.integrations += found.integrations;
@@ -347,12 +378,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         map ? map->forward(whole, fitted.products) : whole, timely, 0.25 * options.seconds);
     auto const go_on = [&] { return in_time() && (!options.keep_going || options.keep_going()); };
     // Of fewer starts enclosures are narrower; what holds from some start holds.
-    bool const some_starts =
-        has_uncertain_starts(holdout) &&
-        std::equal(holdout.experiments.begin(), holdout.experiments.end(), likely_starts.begin(),
-                   likely_starts.end(), [](experiment const& e, auto const& likely) {
-                       return e.initial.size() == likely.size();
-                   });
+    bool const some_starts = paving_detail::may_start_near(holdout, likely_starts);
     double const good = 1.2 * std::max(result.at_witness.lower(), fitted.value.upper());
     for (double const share : {0.3, 1.0}) {
         bool const last = share == 1;
@@ -363,20 +389,7 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
             paving_detail::started_near(posed, fit.experiments.size(), likely_starts, share),
             fit.experiments.size(), fitted.value.upper(), start, good, last, timely);
         search.narrow(options, [&] { return clock.spent() < end && go_on(); });
-        auto const found = search.range();
-        result.boxes += search.tested();
-        result.integrations += search.integrations();
-        if (is_empty(found)) {
-            result.over_fits = result.at_witness;
-            break;
-        }
-        if (result.outputs.empty() || found.upper() < result.over_fits.upper())
-            result.outputs = search.outputs();
-        result.over_fits = intersect(result.over_fits, found);
-        if (is_empty(result.over_fits)) { // no parameter fits after all
-            result.over_fits = result.at_witness;
-            break;
-        }
+        if (!paving_detail::take(result, search)) break;
         if (result.over_fits.upper() <= good || !go_on()) break;
     }
     result.seconds = clock.spent();

@@ -123,59 +123,33 @@ public:
         auto const count = cells_.size();
         own_rates own;
         motion_reach result{std::vector<box>(count, box(n)), std::vector<box>(count + 1, box(n))};
-        // What the marks of the pass before say at each boundary: [pair][boundary]
-        std::vector<std::vector<std::vector<derivative_bound::view>>> other(
-            pairs_.size(), std::vector<std::vector<derivative_bound::view>>(count + 1));
+        boundary_views views(pairs_.size(),
+                             std::vector<std::vector<derivative_bound::view>>(count + 1));
         int passes = pairs_.empty() ? 2 : 3; // once more with what both directions say
-        for (int pass = 0; pass < passes; ++pass) {
-            bool const forward = pass % 2 == 0, again = pass > 0;
-            box at(n);
-            for (std::size_t i = 0; i < n; ++i) {
-                at[i] = forward && i < initial_.size() ? initial_[i] : own_range(i);
-            }
-            ties_->by_sums(at);
-            std::vector<derivative_bound> derived(pairs_.size());
-            auto const arrive = [&](std::size_t boundary) {
-                double const t = boundary == count ? cells_.back().to : cells_[boundary].from;
-                for (std::size_t i = 0; i < n; ++i) {
-                    if (auto const seen = sample_at(i, t)) at[i] = agreed(*seen, at[i]);
-                    if (again) at[i] = agreed(at[i], result.at[boundary][i]);
-                }
-                ties_->by_sums(at);
-                for (std::size_t p = 0; p < pairs_.size(); ++p) {
-                    if (!sample_at(pairs_[p].q, t)) continue;
-                    derived[p].mark(t, at[pairs_[p].q]);
-                    auto& r = at[pairs_[p].r];
-                    auto told = derived[p].told();
-                    r = agreed(r, told.rate);
-                    auto& others = other[p][boundary];
-                    if (again) {
-                        r = agreed(r, forward ? derivative_bound::between(told.views, others)
-                                              : derivative_bound::between(others, told.views));
-                    }
-                    others = std::move(told.views);
-                }
-                result.at[boundary] = at;
-            };
+        for (int number = 0; number < passes; ++number) {
+            auto now = begin_pass(number % 2 == 0, number > 0);
             for (std::size_t s = 0; s < count; ++s) {
-                auto const c = forward ? s : count - 1 - s;
-                arrive(forward ? c : c + 1);
-                auto over = step(range, own, c, at, forward, again ? &result.over[c] : nullptr);
+                auto const c = now.forward ? s : count - 1 - s;
+                arrive(now, now.forward ? c : c + 1, result, views);
+                auto over =
+                    step(range, own, c, now.at, now.forward, now.again ? &result.over[c] : nullptr);
                 auto const rates = rates_in(range, c, over);
-                auto const lasting = forward ? length(c) : traits::neg(length(c));
+                auto const lasting = now.forward ? length(c) : traits::neg(length(c));
                 for (std::size_t p = 0; p < pairs_.size(); ++p) {
-                    derived[p].add(length(c), rates[pairs_[p].r]);
+                    now.derived[p].add(length(c), rates[pairs_[p].r]);
                 }
                 for (std::size_t i = 0; i < n; ++i) {
-                    auto const moved = traits::add(at[i], traits::mul(lasting, rates[i]));
-                    auto const end = agreed(over[i], moved);
+                    auto& x = now.at[i];
+                    auto const end =
+                        agreed(over[i], traits::add(x, traits::mul(lasting, rates[i])));
                     bool const told = i >= samples_.size() || (samples_[i] && !own.needed);
-                    at[i] = told ? end : agreed(end, by_itself(own, c, i, at[i], over, lasting));
+                    x = told ? end : agreed(end, by_itself(own, c, i, x, over, lasting));
                 }
                 result.over[c] = std::move(over);
             }
-            if (count > 0) arrive(forward ? count : 0);
-            if (pass == 1 && own.needed) passes = 4; // what later samples tell, and what that does
+            if (count > 0) arrive(now, now.forward ? count : 0, result, views);
+            // What later samples tell, and what that does.
+            if (number == 1 && own.needed) passes = 4;
         }
         return result;
     }
@@ -228,6 +202,51 @@ private:
         std::map<std::size_t, graph_range> of;
         bool needed = false; ///< Picard's iteration did not settle everywhere
     };
+    /// One way through all cells.
+    struct pass {
+        bool forward, again;
+        box at; ///< states where it is
+        std::vector<derivative_bound> derived;
+    };
+    /// What the marks of the pass before say at each boundary: [pair][boundary]
+    using boundary_views = std::vector<std::vector<std::vector<derivative_bound::view>>>;
+
+    [[nodiscard]] pass begin_pass(bool forward, bool again) const {
+        pass result{forward, again, box(limits_.size()),
+                    std::vector<derivative_bound>(pairs_.size())};
+        for (std::size_t i = 0; i < result.at.size(); ++i) {
+            result.at[i] = forward && i < initial_.size() ? initial_[i] : own_range(i);
+        }
+        ties_->by_sums(result.at);
+        return result;
+    }
+    /// Narrows the states at a boundary by samples, by the pass before and by what derivatives
+    /// tell.
+    void arrive(pass& now, std::size_t boundary, motion_reach& result,
+                boundary_views& views) const {
+        auto& at = now.at;
+        double const t = boundary == cells_.size() ? cells_.back().to : cells_[boundary].from;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            if (auto const seen = sample_at(i, t)) at[i] = agreed(*seen, at[i]);
+            if (now.again) at[i] = agreed(at[i], result.at[boundary][i]);
+        }
+        ties_->by_sums(at);
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            if (!sample_at(pairs_[p].q, t)) continue;
+            now.derived[p].mark(t, at[pairs_[p].q]);
+            auto& r = at[pairs_[p].r];
+            auto told = now.derived[p].told();
+            r = agreed(r, told.rate);
+            auto& others = views[p][boundary];
+            if (now.again) {
+                r = agreed(r, now.forward ? derivative_bound::between(told.views, others)
+                                          : derivative_bound::between(others, told.views));
+            }
+            others = std::move(told.views);
+        }
+        result.at[boundary] = at;
+    }
+
     [[nodiscard]] std::optional<std::size_t> boundary_at(double t) const {
         auto const c = static_cast<std::size_t>(
             std::lower_bound(cells_.begin(), cells_.end(), t,

@@ -100,26 +100,15 @@ struct motion_knowledge {
     std::function<interval(std::size_t, double, double)> reach{};
 };
 
-/// The tubes and cells of one experiment.
-/// @param cells_per_gap  cells between two samples
-/// @guarantee  every motion that keeps the bounds of `e` and is like what is known lies in the
-/// cells
-[[nodiscard]] inline observed_motion
-observe_motion(bound_model const& model, box const& prior, experiment const& e,
-               std::vector<std::optional<std::size_t>> const& channels,
-               motion_knowledge const& known, std::size_t cells_per_gap) {
-    using traits = interval_traits<interval>;
-    auto const n = model.state_count();
-    observed_motion result;
-    result.name = e.name;
-    result.variation = known.declared;
-    result.begin = e.begin;
-    result.start = e.initial;
-    result.tubes.resize(n);
-    result.sensed.resize(n);
+namespace paving_detail {
+
+/// Adds the tubes of the states that are measured, or derived, and the times of their samples.
+/// @returns the least spacing of the measured ones
+inline double add_tubes(observed_motion& result, experiment const& e,
+                        std::vector<std::optional<std::size_t>> const& channels,
+                        motion_knowledge const& known) {
     double spacing = HUGE_VAL;
-    double end = e.begin;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < result.tubes.size(); ++i) {
         bool const derived = i < known.derived.size() && known.derived[i];
         if (!channels[i] && !derived) continue;
         auto const s = derived ? *known.derived[i] : state_samples::of(e, i, *channels[i]);
@@ -130,7 +119,6 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
             known.curvatures.empty() ? std::vector<interval>{} : known.curvatures[i];
         result.tubes[i] = channel_tube::of_gaps(s.times, s.bounds, variations, curvatures);
         result.boundaries.insert(result.boundaries.end(), s.times.begin(), s.times.end());
-        end = std::max(end, s.times.back());
         if (!channels[i]) continue;
         auto const alone = state_samples::sensed(e, *channels[i]);
         auto const skipped = static_cast<std::ptrdiff_t>(s.times.size() - alone.times.size());
@@ -140,39 +128,67 @@ observe_motion(bound_model const& model, box const& prior, experiment const& e,
         }
         if (s.times.size() > 1) spacing = std::min(spacing, s.spacing());
     }
+    return spacing;
+}
+
+/// What is known over one cell.
+inline time_cell cell_over(observed_motion const& motion, box const& prior, experiment const& e,
+                           motion_knowledge const& known, double from, double to) {
+    using traits = interval_traits<interval>;
+    auto const n = motion.tubes.size();
+    time_cell cell{from, to, {traits::bounds(from, to), box(n), prior, box(e.inputs.size())}, {}};
+    for (std::size_t i = 0; i < n; ++i) {
+        auto const seen = motion.state_over(i, from, to);
+        auto const reach = known.reach ? traits::intersect(seen, known.reach(i, from, to)) : seen;
+        auto& state = cell.at.states[i];
+        state = is_empty(reach) ? seen : reach;
+        if (!is_bounded(seen) || width(state) < 0.5 * width(seen)) {
+            cell.lines.push_back(cell_line::still(state));
+            continue;
+        }
+        auto const& tube = *motion.tubes[i];
+        double const first = mid(tube.over(from, from));
+        double const last = mid(tube.over(to, to));
+        auto const [beside, departure] = tube.beside_line(from, to, first, last);
+        cell.lines.push_back(cell_line::of(first, last, beside, departure));
+        // Slopes are taken between the line's middle and where the state is.
+        state = traits::hull(state, traits::point(cell.lines.back().centre));
+    }
+    for (std::size_t u = 0; u < e.inputs.size(); ++u) {
+        cell.at.inputs[u] = input_over(e.inputs[u], from, to);
+        cell.lines.push_back(input_line(e.inputs[u], from, to));
+    }
+    cell.lines.push_back(cell_line::of(from, to, interval(0.0)));
+    return cell;
+}
+
+} // namespace paving_detail
+
+/// The tubes and cells of one experiment.
+/// @param cells_per_gap  cells between two samples
+/// @guarantee  every motion that keeps the bounds of `e` and is like what is known lies in the
+/// cells
+[[nodiscard]] inline observed_motion
+observe_motion(bound_model const& model, box const& prior, experiment const& e,
+               std::vector<std::optional<std::size_t>> const& channels,
+               motion_knowledge const& known, std::size_t cells_per_gap) {
+    observed_motion result;
+    result.name = e.name;
+    result.variation = known.declared;
+    result.begin = e.begin;
+    result.start = e.initial;
+    result.tubes.resize(model.state_count());
+    result.sensed.resize(model.state_count());
+    double const spacing = paving_detail::add_tubes(result, e, channels, known);
+    double end = e.begin;
+    for (double const t : result.boundaries) end = std::max(end, t);
     if (!(end > e.begin)) return result;
     add_knots(result.boundaries, e.inputs, e.begin, end);
     result.boundaries =
         refined_times(std::move(result.boundaries), spacing / static_cast<double>(cells_per_gap));
     for (std::size_t c = 0; c + 1 < result.boundaries.size(); ++c) {
-        double const from = result.boundaries[c];
-        double const to = result.boundaries[c + 1];
-        leaf_ranges at{traits::bounds(from, to), box(n), prior, box(e.inputs.size())};
-        std::vector<cell_line> lines;
-        for (std::size_t i = 0; i < n; ++i) {
-            auto const seen = result.state_over(i, from, to);
-            auto const reach =
-                known.reach ? traits::intersect(seen, known.reach(i, from, to)) : seen;
-            at.states[i] = is_empty(reach) ? seen : reach;
-            if (!is_bounded(seen) || width(at.states[i]) < 0.5 * width(seen)) {
-                lines.push_back(cell_line::still(at.states[i]));
-                continue;
-            }
-            auto const& tube = *result.tubes[i];
-            double const first = mid(tube.over(from, from));
-            double const last = mid(tube.over(to, to));
-            auto const [beside, departure] = tube.beside_line(from, to, first, last);
-            lines.push_back(cell_line::of(first, last, beside, departure));
-            // Slopes are taken between the line's middle and where the state is.
-            at.states[i] = traits::hull(at.states[i], traits::point(lines.back().centre));
-        }
-        for (std::size_t u = 0; u < e.inputs.size(); ++u) {
-            at.inputs[u] = input_over(e.inputs[u], from, to);
-            lines.push_back(paving_detail::input_line(e.inputs[u], from, to));
-        }
-        lines.push_back(cell_line::of(from, to, interval(0.0)));
-        time_cell cell{from, to, std::move(at), std::move(lines)};
-        result.cells.push_back(std::move(cell));
+        result.cells.push_back(paving_detail::cell_over(
+            result, prior, e, known, result.boundaries[c], result.boundaries[c + 1]));
     }
     return result;
 }

@@ -23,6 +23,67 @@ struct compared_outputs {
     interval bound;
 };
 
+namespace paving_detail {
+
+/// The unknowns of two responses side by side.
+[[nodiscard]] inline normalised_unknowns joined(response const& a, response const& b) {
+    normalised_unknowns result(box{}, box{});
+    auto const append = [](auto& to, auto const& from, std::size_t offset) {
+        for (auto side : from) {
+            side.variable += offset;
+            to.push_back(side);
+        }
+    };
+    auto const first = a.table->variables;
+    append(result.parameters, a.unknowns.parameters, 0);
+    append(result.parameters, b.unknowns.parameters, first);
+    append(result.initial, a.unknowns.initial, 0);
+    append(result.initial, b.unknowns.initial, first);
+    result.variables = first + b.table->variables;
+    return result;
+}
+
+/// A monomial of one of two responses, among the variables of both.
+struct joint_term {
+    std::vector<std::uint8_t> exponents;
+    std::size_t term; ///< of the response
+    double sign;      ///< of the response; 0: the constant of both
+    std::size_t degree;
+};
+
+/// By degree; the constant first.
+[[nodiscard]] inline std::vector<joint_term> joint_terms(response const& a, response const& b) {
+    auto const first = a.table->variables, count = first + b.table->variables;
+    std::vector<joint_term> terms{{std::vector<std::uint8_t>(count, 0), 0, 0, 0}};
+    auto const collect = [&](response const& of, std::size_t offset, double sign) {
+        for (std::size_t m = 0; m < of.table->size(); ++m) {
+            auto const& e = of.table->exponents[m];
+            auto const degree = std::accumulate(e.begin(), e.end(), std::size_t{0});
+            if (degree == 0) continue;
+            joint_term t{std::vector<std::uint8_t>(count, 0), m, sign, degree};
+            std::copy(e.begin(), e.end(),
+                      t.exponents.begin() + static_cast<std::ptrdiff_t>(offset));
+            terms.push_back(std::move(t));
+        }
+    };
+    collect(a, 0, 1);
+    collect(b, first, -1);
+    std::stable_sort(terms.begin(), terms.end(),
+                     [](joint_term const& x, joint_term const& y) { return x.degree < y.degree; });
+    return terms;
+}
+
+/// The number of the constant among the monomials; their count when there is none.
+[[nodiscard]] inline std::size_t constant_term(response const& of) {
+    auto const& all = of.table->exponents;
+    auto const at = std::find_if(all.begin(), all.end(), [](auto const& exponents) {
+        return std::all_of(exponents.begin(), exponents.end(), [](auto e) { return e == 0; });
+    });
+    return static_cast<std::size_t>(at - all.begin());
+}
+
+} // namespace paving_detail
+
 /// \f$ y_1(q_1) - y_2(q_2) \f$ over the unknowns of both: how two motions differ that have nothing
 /// in common, neither parameters nor starts. Parameters and starts of the first come first.
 /// @guarantee  encloses the differences of whatever the two responses enclose
@@ -30,57 +91,16 @@ struct compared_outputs {
 [[nodiscard]] inline response difference_of(response const& a, response const& b,
                                             std::vector<compared_outputs> const& rows) {
     using traits = interval_traits<interval>;
-    auto const first = a.table->variables, count = first + b.table->variables;
-    response result{normalised_unknowns(box(), box()), nullptr, {}, {}, {}, {}, rows.size(), 0};
-    auto const append = [](auto& to, auto const& from, std::size_t offset) {
-        for (auto side : from) {
-            side.variable += offset;
-            to.push_back(side);
-        }
-    };
-    append(result.unknowns.parameters, a.unknowns.parameters, 0);
-    append(result.unknowns.parameters, b.unknowns.parameters, first);
-    append(result.unknowns.initial, a.unknowns.initial, 0);
-    append(result.unknowns.initial, b.unknowns.initial, first);
-    result.unknowns.variables = count;
-
-    struct origin {
-        std::vector<std::uint8_t> exponents;
-        std::size_t term;
-        double sign;
-        std::size_t degree;
-    };
-    std::vector<origin> terms{{std::vector<std::uint8_t>(count, 0), 0, 0, 0}}; // the constant
-    auto const collect = [&](response const& of, std::size_t offset, double sign) {
-        for (std::size_t m = 0; m < of.table->size(); ++m) {
-            auto const& e = of.table->exponents[m];
-            auto const degree = std::accumulate(e.begin(), e.end(), std::size_t{0});
-            if (degree == 0) continue;
-            origin o{std::vector<std::uint8_t>(count, 0), m, sign, degree};
-            std::copy(e.begin(), e.end(),
-                      o.exponents.begin() + static_cast<std::ptrdiff_t>(offset));
-            terms.push_back(std::move(o));
-        }
-    };
-    collect(a, 0, 1);
-    collect(b, first, -1);
-    std::stable_sort(terms.begin(), terms.end(),
-                     [](origin const& x, origin const& y) { return x.degree < y.degree; });
+    auto const terms = paving_detail::joint_terms(a, b);
     auto table = std::make_shared<monomial_table>();
-    table->variables = count;
+    table->variables = a.table->variables + b.table->variables;
     table->degree = std::max(a.table->degree, b.table->degree);
     for (auto const& t : terms) table->exponents.push_back(t.exponents);
     table->find_lines();
-    result.table = table;
+    response result{paving_detail::joined(a, b), table, {}, {}, {}, {}, rows.size(), 0};
 
-    auto const constant = [](response const& of) {
-        auto const& all = of.table->exponents;
-        for (std::size_t m = 0; m < all.size(); ++m) {
-            if (std::all_of(all[m].begin(), all[m].end(), [](auto e) { return e == 0; })) return m;
-        }
-        return all.size();
-    };
-    auto const constant_a = constant(a), constant_b = constant(b);
+    auto const constant_a = paving_detail::constant_term(a);
+    auto const constant_b = paving_detail::constant_term(b);
     auto const at = [](response const& of, std::size_t m, std::size_t y) {
         return m < of.table->size() ? of.coefficients[m * of.outputs() + y] : 0.0;
     };

@@ -72,52 +72,80 @@ namespace paving_detail {
     return result;
 }
 
+/// With all states seen after the measurements of each instant, as channels behind the own ones.
+[[nodiscard]] inline record with_states(record const& samples, std::size_t channels,
+                                        std::size_t states) {
+    record result;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        result.push_back(samples[k]);
+        bool const last = k + 1 == samples.size() || samples[k].time < samples[k + 1].time;
+        if (!last || samples[k].channel >= channels) continue;
+        for (std::size_t i = 0; i < states; ++i) {
+            result.push_back({samples[k].time, channels + i, interval_traits<interval>::entire()});
+        }
+    }
+    return result;
+}
+
+/// Names the state that is widest against its limit.
+/// @returns its number
+template <class F>
+std::size_t name_widest(std::vector<model_description::state> const& states, F const& width_of,
+                        run_reach& result) {
+    auto const against_limit = [&](std::size_t i) { return width_of(i) / states[i].limit; };
+    std::size_t widest = 0;
+    for (std::size_t i = 1; i < states.size(); ++i) {
+        if (!(against_limit(i) <= against_limit(widest))) widest = i;
+    }
+    result.state = states[widest].name;
+    result.unit = states[widest].unit;
+    result.width = width_of(widest);
+    return widest;
+}
+
+/// Compares what an output does with its error bound, half the range that it may have.
+inline void add_output(run_reach& result, response const& r, local_response const& local,
+                       std::size_t y, double bound) {
+    double moved = 0;
+    for (std::size_t v = 0; v < r.table->variables; ++v)
+        moved += std::abs(local.slope[v * r.outputs() + y]);
+    double const spread = (moved + local.rest[y]) / bound;
+    bool const known = bound > 0 && std::isfinite(r.radius[y]) && std::isfinite(spread);
+    if (!known) {
+        result.spread = std::numeric_limits<double>::infinity();
+        return;
+    }
+    result.spread = std::max(result.spread, spread);
+    result.moved = std::max(result.moved, moved / bound);
+    result.lost = std::max(result.lost, r.radius[y] / bound);
+}
+
 inline run_reach reach_of_run(identification_problem const& problem, std::size_t e,
                               recorded_model const& seen, box const& parameters,
                               run_options const& options) {
     constexpr std::size_t instants = 50;
     auto const& whole = problem.experiments[e];
-    auto const all = sorted(whole.measurements);
-    auto samples = thinned(all, instants);
+    auto const& about = problem.model.about;
     auto const states = whole.initial.size();
-    auto const channels = problem.model.about.channels.size();
+    auto const channels = about.channels.size();
+    auto const all = sorted(whole.measurements);
+    auto const looked_at = thinned(all, instants);
     run_reach result;
     result.scenario = whole.name;
-    result.time_unit = problem.model.about.time_unit;
+    result.time_unit = about.time_unit;
     result.begin = result.until = whole.begin;
-    result.end = samples.back().time;
-    result.instants = instants_of(samples).size();
+    result.end = looked_at.back().time;
+    result.instants = instants_of(looked_at).size();
     result.measured = instants_of(all).size();
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        bool const last = k + 1 == samples.size() || samples[k].time < samples[k + 1].time;
-        if (!last || samples[k].channel >= channels) continue;
-        double const time = samples[k].time;
-        for (std::size_t i = 0; i < states; ++i) {
-            samples.insert(samples.begin() + static_cast<std::ptrdiff_t>(++k),
-                           {time, channels + i, interval_traits<interval>::entire()});
-        }
-    }
+    auto const samples = with_states(looked_at, channels, states);
     experiment run{whole.name, whole.inputs, whole.begin, whole.initial, samples, samples.size()};
     flow const f(seen, problem.choice, whole.inputs, region_of_runs{whole.initial, parameters});
     auto const r = (*make_run(f, run, samples, parameters, options))(whole.initial, parameters);
     result.interrupted = options.cancelled();
     auto const local = expand(*r, parameters);
     auto const ranges = output_ranges(*r, local);
-    auto const against_limit = [&](std::size_t i, double width) {
-        return width / problem.model.about.states[i].limit;
-    };
-    auto const widest = [&](auto const& width_of) {
-        std::size_t state = 0;
-        for (std::size_t i = 1; i < states; ++i) {
-            if (!(against_limit(i, width_of(i)) <= against_limit(state, width_of(state))))
-                state = i;
-        }
-        result.state = problem.model.about.states[state].name;
-        result.unit = problem.model.about.states[state].unit;
-        result.width = width_of(state);
-        return state;
-    };
-    widest([&](std::size_t i) { return width(whole.initial[i]); });
+    name_widest(
+        about.states, [&](std::size_t i) { return width(whole.initial[i]); }, result);
     std::size_t at = 0; // the last outputs where all states were reached
     for (std::size_t y = 0; y < r->outputs(); ++y) {
         if (samples[y].channel + 1 == channels + states && is_bounded(ranges[y])) at = y + 1;
@@ -125,23 +153,13 @@ inline run_reach reach_of_run(identification_problem const& problem, std::size_t
     if (at == 0) return result;
     for (std::size_t y = 0; y < at; ++y) {
         if (samples[y].channel >= channels) continue;
-        double moved = 0;
-        for (std::size_t v = 0; v < r->table->variables; ++v)
-            moved += std::abs(local.slope[v * r->outputs() + y]);
-        double const bound = 0.5 * width(samples[y].bound);
-        double const spread = (moved + local.rest[y]) / bound;
-        bool const known = bound > 0 && std::isfinite(r->radius[y]) && std::isfinite(spread);
-        if (!known) {
-            result.spread = std::numeric_limits<double>::infinity();
-            continue;
-        }
-        result.spread = std::max(result.spread, spread);
-        result.moved = std::max(result.moved, moved / bound);
-        result.lost = std::max(result.lost, r->radius[y] / bound);
+        add_output(result, *r, local, y, 0.5 * width(samples[y].bound));
     }
     result.until = samples[at - 1].time;
-    auto const state = widest([&](std::size_t i) { return width(ranges[at - states + i]); });
-    result.causes = causes_of(problem, *r, local, at - states + state);
+    auto const first = at - states; // of the states there
+    auto const state = name_widest(
+        about.states, [&](std::size_t i) { return width(ranges[first + i]); }, result);
+    result.causes = causes_of(problem, *r, local, first + state);
     return result;
 }
 
