@@ -103,28 +103,59 @@ inline void add_bridged(json_writer& json, scenario const& s, model_names const&
     json.end_object();
 }
 
+namespace io_detail {
+
+/// Adds the constants that are fixed, by name, if any are.
+inline void add_fixed(json_writer& json, dataset const& data, model_names const& model) {
+    if (data.fixed.empty()) return;
+    json.key("fixed").begin_object();
+    for (auto const& f : data.fixed) {
+        json.key(model.constants.at(f.constant).name);
+        if (f.unit.empty())
+            json.value(f.stated);
+        else
+            json.object("value", f.stated, "unit", f.unit);
+    }
+    json.end_object();
+}
+
+/// Adds a scenario with the names of its tables.
+inline void add_scenario(json_writer& json, scenario const& s, model_names const& model) {
+    bool const hold = !s.inputs.empty() && s.inputs.front().signal.kind() == interpolation::hold;
+    json.begin_object().members("name", s.name);
+    json.members("role", s.role == scenario_role::fit ? "fit" : "holdout");
+    json.members("duration", s.duration, "inputs", s.name + ".inputs.csv");
+    json.members("interpolation", hold ? "hold" : "linear");
+    json.members("measurements", s.name + ".measurements.csv");
+    json.key("initial").begin_object(json_writer::layout::one_line);
+    for (std::size_t i = 0; i < s.initial.size(); ++i) {
+        auto const& [enclosure, stated, unit] = s.initial[i];
+        if (!stated) continue;
+        std::array const range{stated->lower, stated->upper};
+        json.key(model.states.at(i).name);
+        if (unit.empty())
+            json.value(range);
+        else
+            json.object("range", range, "unit", unit);
+    }
+    json.end_object();
+    add_bridged(json, s, model);
+    json.end_object();
+}
+
+} // namespace io_detail
+
 /// The text of `dataset.json`, with the units of what the tables hold: those of `model`.
 [[nodiscard]] inline std::string dataset_json(dataset const& data, model_names const& model) {
     constexpr auto one_line = json_writer::layout::one_line;
-    auto const range = [](stated_range const& r) { return std::array{r.lower, r.upper}; };
     json_writer json;
     json.begin_object().members("format", "sivid-dataset-1", "id", data.id, "model", data.model);
     json.named("parameters", data.parameters, [&](dataset_parameter const& p) {
-        json.begin_object(one_line).members("prior", range(p.prior));
+        json.begin_object(one_line).members("prior", std::array{p.prior.lower, p.prior.upper});
         if (!p.unit.empty()) json.members("unit", p.unit);
         json.end_object();
     });
-    if (!data.fixed.empty()) {
-        json.key("fixed").begin_object();
-        for (auto const& f : data.fixed) {
-            json.key(model.constants.at(f.constant).name);
-            if (f.unit.empty())
-                json.value(f.stated);
-            else
-                json.object("value", f.stated, "unit", f.unit);
-        }
-        json.end_object();
-    }
+    io_detail::add_fixed(json, data, model);
     json.members("max_outlier_fraction", data.max_outlier_fraction);
     json.members("time_unit", model.time_unit);
     auto const units = [&](char const* key, std::vector<name_unit> const& names) {
@@ -137,28 +168,8 @@ inline void add_bridged(json_writer& json, scenario const& s, model_names const&
     };
     units("channel_units", model.channels);
     units("input_units", model.inputs);
-    json.list("scenarios", data.scenarios, [&](scenario const& s) {
-        bool const hold =
-            !s.inputs.empty() && s.inputs.front().signal.kind() == interpolation::hold;
-        json.begin_object().members("name", s.name);
-        json.members("role", s.role == scenario_role::fit ? "fit" : "holdout");
-        json.members("duration", s.duration, "inputs", s.name + ".inputs.csv");
-        json.members("interpolation", hold ? "hold" : "linear");
-        json.members("measurements", s.name + ".measurements.csv");
-        json.key("initial").begin_object(one_line);
-        for (std::size_t i = 0; i < s.initial.size(); ++i) {
-            auto const& [enclosure, stated, unit] = s.initial[i];
-            if (!stated) continue;
-            json.key(model.states.at(i).name);
-            if (unit.empty())
-                json.value(range(*stated));
-            else
-                json.object("range", range(*stated), "unit", unit);
-        }
-        json.end_object();
-        add_bridged(json, s, model);
-        json.end_object();
-    });
+    json.list("scenarios", data.scenarios,
+              [&](scenario const& s) { io_detail::add_scenario(json, s, model); });
     if (!data.effects.empty()) {
         json.named("effects", data.effects, [&](dataset_effect const& e) {
             if (e.off) {

@@ -92,77 +92,91 @@ inline std::string fewest_outliers_sentence(std::uint64_t least, std::uint64_t m
            "; " + number(most) + " as outliers suffice.";
 }
 
-/// What was proved, sentence by sentence.
-inline std::vector<std::string> plain_statements(identification_view const& v) {
-    std::vector<std::string> out;
+/// The measurements that a verdict is about.
+inline std::string measurements_meant(std::vector<scenario_view> const& scenarios) {
     std::size_t budget = 0, samples = 0;
-    for (scenario_view const& s : v.scenarios) {
+    for (scenario_view const& s : scenarios) {
         budget += s.outlier_budget;
         samples += s.measurements;
     }
-    std::string const which = samples == 0  ? "the data"
-                              : budget == 0 ? "all " + count_text(samples) + " measurements"
-                                            : "the " + count_text(samples) +
-                                                  " measurements but for the outliers allowed (" +
-                                                  count_text(budget) + " in all)";
-    if (v.verdict == outcome::proved) {
-        std::string const at =
-            v.witness && !v.witness->parameters.empty()
-                ? " The one that was checked is " + values_text(v.witness->parameters) + "."
-                : "";
-        out.push_back("There is a parameter vector in the prior whose motion meets " + which + "." +
-                      at);
-        if (!v.inside_box.empty()) {
-            out.push_back("So does every one with " + v.inside_box +
-                          ": it is the largest box of parameters that was proved to.");
-        }
-    } else if (v.verdict == outcome::refuted) {
-        out.push_back("No parameter vector in the prior has a motion that meets " + which +
-                      ": every part of the prior was excluded by a proof.");
-    } else {
-        out.push_back(
-            "It is open whether a parameter vector in the prior has a motion that meets " + which +
-            ".");
+    if (samples == 0) return "the data";
+    if (budget == 0) return "all " + count_text(samples) + " measurements";
+    return "the " + count_text(samples) + " measurements but for the outliers allowed (" +
+           count_text(budget) + " in all)";
+}
+
+/// Whether a parameter vector explains the data, and which.
+inline std::vector<std::string> existence_statements(identification_view const& v) {
+    std::string const which = measurements_meant(v.scenarios);
+    if (v.verdict == outcome::refuted)
+        return {"No parameter vector in the prior has a motion that meets " + which +
+                ": every part of the prior was excluded by a proof."};
+    if (v.verdict != outcome::proved)
+        return {"It is open whether a parameter vector in the prior has a motion that meets " +
+                which + "."};
+    std::string const at =
+        v.witness && !v.witness->parameters.empty()
+            ? " The one that was checked is " + values_text(v.witness->parameters) + "."
+            : "";
+    std::vector<std::string> out{"There is a parameter vector in the prior whose motion meets " +
+                                 which + "." + at};
+    if (!v.inside_box.empty()) {
+        out.push_back("So does every one with " + v.inside_box +
+                      ": it is the largest box of parameters that was proved to.");
     }
+    return out;
+}
+
+inline std::string volume_statement(identification_view const& v) {
+    std::string text =
+        v.volume_outer.hi >= 1
+            ? "Nothing (or nearly nothing) of the prior's volume could be excluded."
+            : "At most " + at_most_percent(v.volume_outer.hi) +
+                  " of the prior's volume can explain the data; all the rest is excluded "
+                  "by proof.";
+    if (is_finite(v.volume_inner) && v.volume_inner.lo > 0) {
+        text += " At least " + at_least_percent(v.volume_inner.lo) +
+                " of it is proved to explain the data.";
+    }
+    return text;
+}
+
+/// Where the parameter vectors lie that explain the data.
+inline std::vector<std::string> range_statements(identification_view const& v) {
+    std::vector<std::string> out;
+    std::string hulls;
+    std::string unresolved;
+    for (parameter_view const& p : v.parameters) {
+        std::string const text =
+            p.name + " in " + outward_text_within(p.hull, p.prior) + unit_suffix(p.unit);
+        std::string& list = is_unresolved(p) ? unresolved : hulls;
+        list += (list.empty() ? "" : ", ") + (is_unresolved(p) ? p.name : text);
+        if (p.excluded_between > 0) list += " (" + exclusion_note(v, p) + ")";
+    }
+    if (!hulls.empty()) {
+        out.push_back("Every parameter vector that explains the data has " + hulls + ".");
+    }
+    for (combination_view const& c : v.combinations) {
+        bool const all = !is_empty(c.prior) && c.hull.lo <= c.prior.lo && c.hull.hi >= c.prior.hi;
+        out.push_back((all ? "Both ends of its range over the prior are left of "
+                           : "Every parameter vector that explains the data has ") +
+                      formula_text(c.formula) + " in " + outward_text(c.hull) +
+                      unit_suffix(c.unit) + "." + (c.note.empty() ? "" : " " + c.note));
+    }
+    if (!unresolved.empty()) {
+        out.push_back("For " + unresolved +
+                      " taken alone, nothing (or nearly nothing) of the prior could be excluded.");
+    }
+    if (is_finite(v.volume_outer)) out.push_back(volume_statement(v));
+    return out;
+}
+
+/// What was proved, sentence by sentence.
+inline std::vector<std::string> plain_statements(identification_view const& v) {
+    auto out = existence_statements(v);
     if (v.verdict != outcome::refuted) {
-        std::string hulls;
-        std::string unresolved;
-        for (parameter_view const& p : v.parameters) {
-            std::string const text =
-                p.name + " in " + outward_text_within(p.hull, p.prior) + unit_suffix(p.unit);
-            std::string& list = is_unresolved(p) ? unresolved : hulls;
-            list += (list.empty() ? "" : ", ") + (is_unresolved(p) ? p.name : text);
-            if (p.excluded_between > 0) list += " (" + exclusion_note(v, p) + ")";
-        }
-        if (!hulls.empty()) {
-            out.push_back("Every parameter vector that explains the data has " + hulls + ".");
-        }
-        for (combination_view const& c : v.combinations) {
-            bool const all =
-                !is_empty(c.prior) && c.hull.lo <= c.prior.lo && c.hull.hi >= c.prior.hi;
-            out.push_back((all ? "Both ends of its range over the prior are left of "
-                               : "Every parameter vector that explains the data has ") +
-                          formula_text(c.formula) + " in " + outward_text(c.hull) +
-                          unit_suffix(c.unit) + "." + (c.note.empty() ? "" : " " + c.note));
-        }
-        if (!unresolved.empty()) {
-            out.push_back(
-                "For " + unresolved +
-                " taken alone, nothing (or nearly nothing) of the prior could be excluded.");
-        }
-        if (is_finite(v.volume_outer)) {
-            std::string text =
-                v.volume_outer.hi >= 1
-                    ? "Nothing (or nearly nothing) of the prior's volume could be excluded."
-                    : "At most " + at_most_percent(v.volume_outer.hi) +
-                          " of the prior's volume can explain the data; all the rest is excluded "
-                          "by proof.";
-            if (is_finite(v.volume_inner) && v.volume_inner.lo > 0) {
-                text += " At least " + at_least_percent(v.volume_inner.lo) +
-                        " of it is proved to explain the data.";
-            }
-            out.push_back(text);
-        }
+        auto const ranges = range_statements(v);
+        out.insert(out.end(), ranges.begin(), ranges.end());
     }
     auto const forced = std::count_if(v.outliers.begin(), v.outliers.end(),
                                       [](outlier_view const& o) { return o.proved; });

@@ -139,6 +139,101 @@ counts_of_late(sampled_signal const& counts, std::optional<dead_time> const& lat
     return {{begin}, {0.5 * (*least + *most)}, interpolation::hold, {0.5 * (*most - *least)}};
 }
 
+namespace diagnosis_detail {
+
+/// What a problem's memories are at a point of its parameters.
+struct memories_at {
+    identification_problem const& original;
+    std::vector<double> const& parameters;
+
+    [[nodiscard]] double size(signal_memory const& d) const {
+        double const value = size_of(original, d, parameters);
+        if (!has_meaning(d.kind, interval(value)))
+            throw std::invalid_argument("'" + original.model.about.constants[d.constant].name +
+                                        "' is negative, or the limit of a rate and not above 0");
+        return value;
+    }
+    void add_to(dead_time& late, signal_memory const& d) const {
+        (d.kind == memory_kind::drift ? late.drift : late.delay) += size(d);
+    }
+    /// How late a channel of an experiment is at a time.
+    [[nodiscard]] dead_time lateness(experiment const& e, std::size_t channel, double time) const {
+        dead_time shown;
+        for (auto const& d : original.model.channel_delays)
+            if (d.index == channel && acts_at(d, e.inputs, time)) add_to(shown, d);
+        return shown;
+    }
+    /// The same of all its readings in an experiment, and at its begin; nothing: not all alike.
+    [[nodiscard]] std::optional<dead_time> common_lateness(experiment const& e,
+                                                           std::size_t channel) const {
+        auto const common = lateness(e, channel, e.begin);
+        for (auto const& m : e.measurements)
+            if (m.channel == channel && !(lateness(e, channel, m.time) == common))
+                return std::nullopt;
+        return common;
+    }
+};
+
+/// Puts inputs behind their rate limits, then behind their plays, and makes them late.
+inline void resolve_inputs(experiment& e, memories_at const& at) {
+    auto const& memories = at.original.model.input_memory;
+    for (auto const kind : {memory_kind::rate_limit, memory_kind::play}) {
+        for (auto const& d : memories) {
+            if (d.kind != kind || !acts_in(d, e.inputs)) continue;
+            auto& u = e.inputs[d.index];
+            u = resolved_input(std::get<sampled_signal>(u), kind, e, interval(at.size(d)));
+        }
+    }
+    std::vector<dead_time> late(e.inputs.size());
+    for (auto const& d : memories)
+        if (is_dead_time(d.kind) && acts_in(d, e.inputs)) at.add_to(late[d.index], d);
+    for (std::size_t i = 0; i < late.size(); ++i)
+        e.inputs[i] = delayed(e.inputs[i], late[i], e.begin);
+}
+
+/// Moves what counts readings of late channels with them.
+/// @param recorded  the experiment as it was
+inline void move_counts(experiment& e, experiment const& recorded, memories_at const& at) {
+    auto const& model = at.original.model;
+    for (auto const& d : model.channel_delays) {
+        auto const common = at.common_lateness(e, d.index);
+        auto const read = operands_of(model.g, {model.observe[d.index]});
+        for (std::size_t k = 0; k < read.size(); ++k) {
+            auto const& n = model.g.nodes()[k];
+            if (!read[k] || n.op != operation::input) continue;
+            auto const i = static_cast<std::size_t>(n.index);
+            if (!counts_readings(model.about.inputs[i].name)) continue;
+            if (auto const* u = std::get_if<sampled_signal>(&recorded.inputs[i]))
+                e.inputs[i] = counts_of_late(*u, common, e.begin);
+        }
+    }
+}
+
+/// Fixes the sizes of memories among the unknowns; the others are kept.
+inline void fix_sizes(memory_resolved& result, memories_at const& at) {
+    auto const& original = at.original;
+    std::vector<bool> is_size(original.model.about.constants.size(), false);
+    for (auto const* all : {&original.model.input_memory, &original.model.channel_delays}) {
+        for (auto const& d : *all) is_size[d.constant] = true;
+    }
+    auto& problem = result.problem;
+    problem.choice.unknown.clear();
+    std::vector<interval> prior;
+    for (std::size_t j = 0; j < original.choice.unknown.size(); ++j) {
+        auto const& name = original.choice.unknown[j];
+        if (is_size[index_of(original.model.about.constants, name, "constant")]) {
+            problem.choice.fixed[name] = interval(at.parameters.at(j));
+            continue;
+        }
+        problem.choice.unknown.push_back(name);
+        prior.push_back(original.prior[j]);
+        result.kept.push_back(j);
+    }
+    problem.prior = box(std::move(prior));
+}
+
+} // namespace diagnosis_detail
+
 /// Fixes delays, plays and rate limits at the values in `parameters`, moves inputs and measurements
 /// accordingly, and puts inputs behind their limits, then behind their plays, with errors that
 /// cover the roundings.
@@ -150,81 +245,21 @@ counts_of_late(sampled_signal const& counts, std::optional<dead_time> const& lat
     if (remembers_formulas(original))
         throw std::invalid_argument("a play or a rate limit needs a recorded input");
     require_own_memory(original.model, original.choice);
+    diagnosis_detail::memories_at const at{original, parameters};
     memory_resolved result{original, {}};
     auto& problem = result.problem;
-    auto& model = problem.model;
-    auto const value_of = [&](signal_memory const& d) {
-        double const value = size_of(original, d, parameters);
-        if (!has_meaning(d.kind, interval(value)))
-            throw std::invalid_argument("'" + model.about.constants[d.constant].name +
-                                        "' is negative, or the limit of a rate and not above 0");
-        return value;
-    };
-    auto const add_to = [&](dead_time& late, signal_memory const& d) {
-        (d.kind == memory_kind::drift ? late.drift : late.delay) += value_of(d);
-    };
-    std::vector<bool> is_size(model.about.constants.size(), false);
     for (std::size_t x = 0; x < problem.experiments.size(); ++x) {
         auto& e = problem.experiments[x];
-        for (auto const kind : {memory_kind::rate_limit, memory_kind::play}) {
-            for (auto const& d : model.input_memory) {
-                if (d.kind != kind || !acts_in(d, e.inputs)) continue;
-                auto& u = e.inputs[d.index];
-                u = resolved_input(std::get<sampled_signal>(u), kind, e, interval(value_of(d)));
-            }
-        }
-        std::vector<dead_time> late(e.inputs.size());
-        for (auto const& d : model.input_memory)
-            if (is_dead_time(d.kind) && acts_in(d, e.inputs)) add_to(late[d.index], d);
-        for (std::size_t i = 0; i < late.size(); ++i)
-            e.inputs[i] = delayed(e.inputs[i], late[i], e.begin);
-        auto const lateness = [&](std::size_t channel, double time) {
-            dead_time shown;
-            for (auto const& d : model.channel_delays)
-                if (d.index == channel && acts_at(d, e.inputs, time)) add_to(shown, d);
-            return shown;
-        };
-        // What counts readings of a late channel moves with them.
-        for (auto const& d : model.channel_delays) {
-            std::optional<dead_time> common = lateness(d.index, e.begin);
-            for (auto const& m : e.measurements)
-                if (common && m.channel == d.index && !(lateness(m.channel, m.time) == *common))
-                    common.reset();
-            auto const read = operands_of(model.g, {model.observe[d.index]});
-            for (std::size_t k = 0; k < read.size(); ++k) {
-                auto const& n = model.g.nodes()[k];
-                if (!read[k] || n.op != operation::input) continue;
-                auto const i = static_cast<std::size_t>(n.index);
-                if (!counts_readings(model.about.inputs[i].name)) continue;
-                auto const& own = original.experiments[x].inputs[i];
-                if (auto const* u = std::get_if<sampled_signal>(&own))
-                    e.inputs[i] = counts_of_late(*u, common, e.begin);
-            }
-        }
+        diagnosis_detail::resolve_inputs(e, at);
+        diagnosis_detail::move_counts(e, original.experiments[x], at);
         for (auto& m : e.measurements) {
-            m.time = lateness(m.channel, m.time).source(m.time, e.begin);
+            m.time = at.lateness(e, m.channel, m.time).source(m.time, e.begin);
         }
         e.measurements = sorted(std::move(e.measurements));
     }
-    for (auto const* all : {&model.input_memory, &model.channel_delays}) {
-        for (auto const& d : *all) is_size[d.constant] = true;
-    }
-    problem.choice.unknown.clear();
-    std::vector<interval> prior;
-    for (std::size_t j = 0; j < original.choice.unknown.size(); ++j) {
-        auto const& name = original.choice.unknown[j];
-        auto const k = index_of(model.about.constants, name, "constant");
-        if (is_size[k]) {
-            problem.choice.fixed[name] = interval(parameters.at(j));
-            continue;
-        }
-        problem.choice.unknown.push_back(name);
-        prior.push_back(original.prior[j]);
-        result.kept.push_back(j);
-    }
-    problem.prior = box(std::move(prior));
-    model.input_memory.clear();
-    model.channel_delays.clear();
+    diagnosis_detail::fix_sizes(result, at);
+    problem.model.input_memory.clear();
+    problem.model.channel_delays.clear();
     return result;
 }
 

@@ -17,6 +17,44 @@
 
 namespace sivid {
 
+namespace diagnosis_detail {
+
+/// Whether the answer is a cause that can be posed in the hold-out experiments. Whether effects of
+/// some scenarios act there nobody knows, and perhaps not how often their readings had wrapped.
+/// Without effects the answer is the model itself, no cause.
+inline bool holdout_tells_answer(diagnosis_run const& run, holdout const& data) {
+    if (run.answer == 0 || run.result.causes.empty()) return false;
+    auto const& answer = run.candidates[run.answer];
+    auto const partial = [](effect const& e) { return !e.only_in.empty(); };
+    if (std::ranges::any_of(holdout::effects_of(answer, run.catalogue), partial)) return false;
+    try {
+        (void)data.judged_by(answer, run.base, run.catalogue);
+        return true;
+    } catch (std::invalid_argument const&) {
+        return false;
+    }
+}
+
+/// What the model and the answer say of the hold-out experiments, side by side.
+inline holdout_figures figures_of(holdout_judgement const& before, holdout_judgement const& after,
+                                  model_description const& about) {
+    holdout_figures figures;
+    figures.inflation_before = before.at_witness;
+    figures.inflation_after = after.at_witness;
+    figures.over_fits_before = before.over_fits;
+    figures.over_fits_after = after.over_fits;
+    for (auto const& c : about.channels) figures.channels.push_back(c.name);
+    figures.rmse_before = before.rmse;
+    figures.rmse_after = after.rmse;
+    figures.covered_before = before.covered;
+    figures.covered_after = after.covered;
+    figures.width_before = before.width;
+    figures.width_after = after.width;
+    return figures;
+}
+
+} // namespace diagnosis_detail
+
 SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double seconds,
                                  feasibility_test_options const& test, std::size_t boxes) {
     if (data.empty() || run.candidates.empty()) return;
@@ -25,22 +63,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
     if (auto const words = bridging_words(posed.experiments); !words.empty())
         run.result.assumptions.push_back("of the held-out data" + words);
     stopwatch const clock;
-    // Whether effects of some scenarios act in the hold-out ones nobody knows, and perhaps not how
-    // often their readings had wrapped. Without effects the answer is the model itself, no cause.
-    auto const partial = [](effect const& e) { return !e.only_in.empty(); };
-    auto const poses = [&](screened const& candidate) {
-        try {
-            (void)data.judged_by(candidate, run.base, run.catalogue);
-            return true;
-        } catch (std::invalid_argument const&) {
-            return false;
-        }
-    };
-    bool const answered =
-        run.answer != 0 && !run.result.causes.empty() &&
-        std::ranges::none_of(holdout::effects_of(run.candidates[run.answer], run.catalogue),
-                             partial) &&
-        poses(run.candidates[run.answer]);
+    bool const answered = diagnosis_detail::holdout_tells_answer(run, data);
     bool const one_by_one = test.workers.threads <= 1;
     auto const judge = [&](screened const& candidate, verified_inflation const& bound,
                            explained_hull const& explaining, double share) {
@@ -70,20 +93,8 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
     });
     run.result.seconds += clock.spent();
     if (!answered) return;
-    auto const& before = *run.holdout_before;
-    auto const& after = *run.holdout_after;
-    holdout_figures figures;
-    figures.inflation_before = before.at_witness;
-    figures.inflation_after = after.at_witness;
-    figures.over_fits_before = before.over_fits;
-    figures.over_fits_after = after.over_fits;
-    for (auto const& c : run.base.model.about.channels) figures.channels.push_back(c.name);
-    figures.rmse_before = before.rmse;
-    figures.rmse_after = after.rmse;
-    figures.covered_before = before.covered;
-    figures.covered_after = after.covered;
-    figures.width_before = before.width;
-    figures.width_after = after.width;
+    auto figures =
+        diagnosis_detail::figures_of(*run.holdout_before, *run.holdout_after, run.base.model.about);
     run.result.shrink_holdout = shrink(figures.inflation_before, figures.inflation_after);
     if (run.answer_bound.range.upper() <= 1 && figures.over_fits_after) {
         run.result.shrink_over_fits = shrink(figures.inflation_before, *figures.over_fits_after);

@@ -81,8 +81,23 @@ inline stop_reason stop_reason_of(json_value const& entry) {
     entry.fail(text_of("unknown word ", in_quotes(entry.string())), "see the format");
 }
 
-inline void read_result(json_value const& root, stored_identification& result) {
-    mapping_entries::require_format(root, "sivid-identification-1");
+/// What the search spent and what it might have spent.
+inline search_effort read_effort(json_value const& search) {
+    auto const& bytes = search.at("most_bytes");
+    search_effort result{nearest_number(search.at("seconds")),
+                         nearest_number(search.at("most_seconds")),
+                         count(search.at("boxes")),
+                         count(search.at("most_boxes")),
+                         {}};
+    if (bytes.type() != json_value::kind::null) result.most_bytes = count(bytes);
+    if (auto const* ratio = search.find("sufficient_ratio"))
+        result.sufficient_ratio = nearest(ratio->number());
+    if (auto const* gain = search.find("hull_gain")) result.hull_gain = nearest(gain->number());
+    return result;
+}
+
+/// Of what the result is: data set, model and problem.
+inline void read_subject(json_value const& root, stored_identification& result) {
     result.dataset = root.at("dataset").any_string();
     if (auto const* source = root.find("source")) {
         result.source_folder = source->at("folder").any_string();
@@ -93,6 +108,10 @@ inline void read_result(json_value const& root, stored_identification& result) {
     if (auto const* effects = root.find("effects")) {
         for (auto const& name : effects->elements()) result.effects.push_back(name.string());
     }
+}
+
+/// The verdict with its grounds, and why and how the search ended.
+inline void read_verdict(json_value const& root, stored_identification& result) {
     result.verdict = one_of(root.at("verdict"),
                             {verdict::consistent, verdict::inconsistent, verdict::undecided});
     if (auto const* grounds = root.find("verdict_rests_on")) {
@@ -101,25 +120,13 @@ inline void read_result(json_value const& root, stored_identification& result) {
                               verdict_grounds::excluded_boxes, verdict_grounds::nothing}));
     }
     result.reason = stop_reason_of(root.at("stop_reason"));
-    if (auto const* search = root.find("search")) {
-        auto const& bytes = search->at("most_bytes");
-        result.effort = search_effort{nearest_number(search->at("seconds")),
-                                      nearest_number(search->at("most_seconds")),
-                                      count(search->at("boxes")),
-                                      count(search->at("most_boxes")),
-                                      {}};
-        if (bytes.type() != json_value::kind::null) result.effort->most_bytes = count(bytes);
-        if (auto const* ratio = search->find("sufficient_ratio"))
-            result.effort->sufficient_ratio = nearest(ratio->number());
-        if (auto const* gain = search->find("hull_gain"))
-            result.effort->hull_gain = nearest(gain->number());
-    }
+    if (auto const* search = root.find("search")) result.effort = read_effort(*search);
     if (auto const* enclosures = root.find("enclosures"))
         result.tolerance = nearest_number(enclosures->at("tolerance"));
-    for (auto const& a : root.at("assumptions").elements())
-        result.assumptions.push_back(a.any_string());
-    if (auto const* files = root.find("files"))
-        result.stated_files = by_name(*files, &json_value::string);
+}
+
+/// Ranges of parameters and of combinations.
+inline void read_hulls(json_value const& root, stored_identification& result) {
     auto const& parameters = root.at("parameters");
     for (std::size_t j = 0; j < parameters.members().size(); ++j) {
         auto const& own = parameters.members()[j];
@@ -131,29 +138,35 @@ inline void read_result(json_value const& root, stored_identification& result) {
     for (auto const& c : root.at("combinations").elements())
         result.combinations.push_back(
             {c.at("formula").string(), outward(c.at("hull")), c.at("unit").any_string()});
-    result.inner = outward(root.at("volume").at("inner"));
-    result.outer = outward(root.at("volume").at("outer"));
-    auto const* const of = root.at("volume").find("of");
+}
+
+/// Volumes, and the paving of products if they are of one.
+inline void read_volumes(json_value const& root, stored_identification& result) {
+    auto const& volume = root.at("volume");
+    result.inner = outward(volume.at("inner"));
+    result.outer = outward(volume.at("outer"));
+    auto const* const of = volume.find("of");
     auto const* const products = root.find("products");
     auto const source = of != nullptr ? of->string() : "boxes";
     if (source != "boxes" && source != "products")
         of->fail(text_of("unknown word ", in_quotes(source)), "known: boxes, products");
     if ((source == "products") != (products != nullptr))
-        root.at("volume").fail("volumes of products need the paving of products, and only they",
-                               "identify again");
-    if (products != nullptr) {
-        result.products.emplace();
-        for (auto const& side : products->at("sides").elements())
-            result.products->sides.push_back(side.string());
-        result.products->stated_rows = by_name(products->at("rows"), count);
-    }
+        volume.fail("volumes of products need the paving of products, and only they",
+                    "identify again");
+    if (products == nullptr) return;
+    result.products.emplace();
+    for (auto const& side : products->at("sides").elements())
+        result.products->sides.push_back(side.string());
+    result.products->stated_rows = by_name(products->at("rows"), count);
+}
+
+inline stored_identification::witness_point read_witness(json_value const& w) {
     auto const read_numbers = [](json_value const& list) { return by_name(list, nearest_number); };
-    if (auto const& w = root.at("witness"); w.type() != json_value::kind::null) {
-        result.witness.emplace();
-        result.witness->parameters = read_numbers(w.at("parameters"));
-        result.witness->initial = by_name(w.at("initial"), read_numbers);
-    }
-    auto const& outliers = root.at("outliers");
+    return {read_numbers(w.at("parameters")), by_name(w.at("initial"), read_numbers)};
+}
+
+/// Which outliers are allowed, needed and forced.
+inline void read_outliers(json_value const& outliers, stored_identification& result) {
     result.budget = by_name(outliers.at("budget"), count);
     auto const read_count = [](json_value const& entry) {
         proved_count const c{count(entry.at("least")), count(entry.at("most"))};
@@ -167,6 +180,21 @@ inline void read_result(json_value const& root, stored_identification& result) {
     for (auto const& f : outliers.at("forced").elements())
         result.forced.push_back(
             {f.at("scenario").string(), nearest_number(f.at("t")), f.at("channel").string()});
+}
+
+inline void read_result(json_value const& root, stored_identification& result) {
+    mapping_entries::require_format(root, "sivid-identification-1");
+    read_subject(root, result);
+    read_verdict(root, result);
+    for (auto const& a : root.at("assumptions").elements())
+        result.assumptions.push_back(a.any_string());
+    if (auto const* files = root.find("files"))
+        result.stated_files = by_name(*files, &json_value::string);
+    read_hulls(root, result);
+    read_volumes(root, result);
+    if (auto const& w = root.at("witness"); w.type() != json_value::kind::null)
+        result.witness = read_witness(w);
+    read_outliers(root.at("outliers"), result);
     if (auto const* rows = root.find("rows")) result.stated_rows = by_name(*rows, count);
     if (auto const* told = root.find("identifiability"))
         result.identifiability = read_claims(*told);

@@ -242,7 +242,98 @@ measured_by(identification_problem problem, std::shared_ptr<feasible_search> wit
     };
 }
 
-inline bool is_excluded(paved_box const& b) { return b.verdict == box_verdict::outside; }
+/// Constants that a request gives ranges: unknowns of the prediction behind those identified.
+struct further_unknowns {
+    std::vector<std::string> names;
+    std::vector<interval> ranges;
+
+    [[nodiscard]] box beside(box const& own) const {
+        std::vector<interval> sides(own.begin(), own.end());
+        sides.insert(sides.end(), ranges.begin(), ranges.end());
+        return box(std::move(sides));
+    }
+    /// What an identification leaves of its unknowns, each with all of these.
+    [[nodiscard]] std::vector<box> beside(std::vector<paved_box> const& rows) const {
+        std::vector<box> left;
+        for (auto const& row : rows)
+            if (row.verdict != box_verdict::outside) left.push_back(beside(row.set));
+        return left;
+    }
+};
+
+/// Sets constants to what is requested: those of one value are fixed, the others become unknowns.
+/// @throws std::invalid_argument  for constants that cannot be set
+inline further_unknowns set_constants(std::map<std::string, interval> const& requested,
+                                      std::vector<std::string> const& identified,
+                                      prediction_problem& direct) {
+    further_unknowns result;
+    for (auto const& [name, range] : requested) {
+        static_cast<void>(index_of(direct.model.about.constants, name, "constant"));
+        if (std::find(identified.begin(), identified.end(), name) != identified.end())
+            throw std::invalid_argument(
+                "the constant '" + name +
+                "' is one that the data identify: the prediction is for all its values that they "
+                "leave; to fix it, identify with it fixed");
+        if (is_empty(range) || !std::isfinite(mag(range)))
+            throw std::invalid_argument("the range of the constant '" + name + "' is not bounded");
+        if (width(range) <= normalised_unknowns::negligible * mag(range)) {
+            direct.choice.fixed[name] = range;
+            continue;
+        }
+        direct.choice.fixed.erase(name);
+        direct.choice.unknown.push_back(name);
+        result.names.push_back(name);
+        result.ranges.push_back(range);
+    }
+    return result;
+}
+
+/// The parameters that the data leave, as they were paved.
+inline void pose_in_parameters(identification_problem const& data,
+                               stored_identification const& stored, further_unknowns const& further,
+                               std::shared_ptr<feasible_search> const& search,
+                               stored_prediction& result) {
+    auto& problem = result.problem;
+    if (!problem.model.has_memory()) problem.measured = measured_by(data, search);
+    problem.sets = further.beside(stored.rows);
+    result.sides = problem.choice.unknown;
+}
+
+/// The products that the data leave, where these tell the motions of the prediction and its
+/// margins, and are all that the equations of the data see.
+inline void pose_in_products(identification_problem const& data,
+                             stored_identification::product_boxes const& stored,
+                             std::vector<node_id> const& margins, further_unknowns const& further,
+                             std::shared_ptr<feasible_search> const& search,
+                             stored_prediction& result) {
+    auto const& direct = result.direct;
+    identification_problem asked;
+    asked.model = followed_outputs(direct.model, margins).model;
+    asked.choice = direct.choice;
+    asked.prior = direct.sets.front();
+    experiment scenario;
+    scenario.inputs = direct.inputs;
+    scenario.initial = direct.initial;
+    asked.experiments = {scenario};
+    auto formulas = stored.sides;
+    formulas.insert(formulas.end(), further.names.begin(), further.names.end());
+    auto const rebuilt = rebuild_products<interval>(asked, formulas);
+    result.not_in_products = !rebuilt.malformed.empty() ? rebuilt.malformed : rebuilt.unproved;
+    auto const seen = rebuild_products<interval>(data, stored.sides);
+    if (result.not_in_products.empty()) result.not_in_products = seen.unproved;
+    result.in_products = result.not_in_products.empty();
+    if (!result.in_products) return;
+    auto& problem = result.problem;
+    if (!direct.model.has_memory()) problem.measured = measured_by(seen.problem, search);
+    problem.choice = rebuilt.problem.choice;
+    result.sides = formulas;
+    problem.sets = further.beside(stored.rows);
+    if (share_a_factor(rebuilt))
+        problem.reached = reached_within(rebuilt, asked.prior, problem.sets, 1000);
+    auto const own = static_cast<std::ptrdiff_t>(stored.sides.size());
+    search->use({rebuilt.sides.begin(), rebuilt.sides.begin() + own},
+                {rebuilt.pivots.begin(), rebuilt.pivots.begin() + own});
+}
 
 } // namespace io_detail
 
@@ -258,81 +349,19 @@ predict_from(identification_problem const& data, stored_identification const& st
     direct.inputs = request.inputs;
     direct.initial = request.initial;
     direct.end = request.end;
-    std::vector<std::string> added;
-    std::vector<interval> ranges;
     for (auto const& a : stored.assumptions)
         result->assumptions.push_back("of the identification: " + a);
-    for (auto const& [name, range] : request.set) {
-        auto const& constants = model.about.constants;
-        static_cast<void>(index_of(constants, name, "constant"));
-        auto const& unknown = data.choice.unknown;
-        if (std::find(unknown.begin(), unknown.end(), name) != unknown.end())
-            throw std::invalid_argument(
-                "the constant '" + name +
-                "' is one that the data identify: the prediction is for all its values that they "
-                "leave; to fix it, identify with it fixed");
-        if (is_empty(range) || !std::isfinite(mag(range)))
-            throw std::invalid_argument("the range of the constant '" + name + "' is not bounded");
-        if (width(range) <= normalised_unknowns::negligible * mag(range)) {
-            direct.choice.fixed[name] = range;
-        } else {
-            direct.choice.fixed.erase(name);
-            direct.choice.unknown.push_back(name);
-            added.push_back(name);
-            ranges.push_back(range);
-        }
-    }
+    auto const further = io_detail::set_constants(request.set, data.choice.unknown, direct);
     io_detail::state_assumptions(data, request, *result);
-    auto const extended = [&](box const& own) {
-        std::vector<interval> sides(own.begin(), own.end());
-        sides.insert(sides.end(), ranges.begin(), ranges.end());
-        return box(std::move(sides));
-    };
-    direct.sets = {extended(data.prior)};
-    auto search = std::make_shared<io_detail::feasible_search>(data, stored, request.proof_seconds);
-
     auto& problem = result->problem;
     problem = direct;
-    problem.sets.clear();
-    bool const hears_data = !model.has_memory();
-    result->sides = direct.choice.unknown;
-    if (stored.products) {
-        identification_problem asked;
-        asked.model = followed_outputs(model, margins).model;
-        asked.choice = direct.choice;
-        asked.prior = direct.sets.front();
-        experiment scenario;
-        scenario.inputs = request.inputs;
-        scenario.initial = request.initial;
-        asked.experiments = {scenario};
-        auto formulas = stored.products->sides;
-        formulas.insert(formulas.end(), added.begin(), added.end());
-        auto const rebuilt = rebuild_products<interval>(asked, formulas);
-        result->not_in_products = !rebuilt.malformed.empty() ? rebuilt.malformed : rebuilt.unproved;
-        auto const seen = rebuild_products<interval>(data, stored.products->sides);
-        if (result->not_in_products.empty()) // do the equations of the data see them alone?
-            result->not_in_products = seen.unproved;
-        result->in_products = result->not_in_products.empty();
-        if (result->in_products) {
-            if (hears_data) problem.measured = io_detail::measured_by(seen.problem, search);
-            problem.choice = rebuilt.problem.choice;
-            result->sides = formulas;
-            for (auto const& row : stored.products->rows) {
-                if (!io_detail::is_excluded(row)) problem.sets.push_back(extended(row.set));
-            }
-            if (share_a_factor(rebuilt))
-                problem.reached = reached_within(rebuilt, asked.prior, problem.sets, 1000);
-            auto const own = static_cast<std::ptrdiff_t>(stored.products->sides.size());
-            search->use({rebuilt.sides.begin(), rebuilt.sides.begin() + own},
-                        {rebuilt.pivots.begin(), rebuilt.pivots.begin() + own});
-        }
-    }
-    if (!result->in_products) {
-        if (hears_data) problem.measured = io_detail::measured_by(data, search);
-        for (auto const& row : stored.rows) {
-            if (!io_detail::is_excluded(row)) problem.sets.push_back(extended(row.set));
-        }
-    }
+    direct.sets = {further.beside(data.prior)};
+
+    auto const search =
+        std::make_shared<io_detail::feasible_search>(data, stored, request.proof_seconds);
+    if (stored.products)
+        io_detail::pose_in_products(data, *stored.products, margins, further, search, *result);
+    if (!result->in_products) io_detail::pose_in_parameters(data, stored, further, search, *result);
     if (problem.sets.empty())
         throw input_error{
             {.file = file.string()}, "no parameter is left", "identify the data anew"};

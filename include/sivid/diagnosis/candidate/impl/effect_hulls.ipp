@@ -56,43 +56,20 @@ private:
         return others;
     }
 
+    /// A part of the prior, and its share of the boxes.
+    struct slice {
+        explained_hull all; ///< parameters
+        double share;
+    };
+
     /// What the untouched data leave of the prior, in slices, each cut to what it leaves or halved,
     /// until they are excluded or narrow. What is excluded at all mostly is so by few boxes: all
     /// are tried with few, then with more.
     [[nodiscard]] explained_hull over_slices(identification_problem const& whole,
                                              sliced_input const& sliced) const {
-        struct slice {
-            explained_hull all; ///< parameters
-            double share;
-        };
-        explained_hull prior{whole.prior};
-        if (sliced.untouched && search_.in_time()) {
-            auto const found = search_(*sliced.untouched, 1, of_untouched);
-            auto const left = found ? explained_by(whole, sliced, prior, *sliced.untouched, *found)
-                                    : std::nullopt;
-            if (!left) return {empty_box(whole.prior.size())};
-            prior = *left;
-        }
-        std::vector<slice> waiting{{prior, least_of_slice}};     // in the order of coming
-        int const begin_with = sliced.sides.size() == 1 ? 8 : 4; // wider ones are rarely excluded
-        for (auto const& side : sliced.sides) {
-            auto const& all = prior.parameters[side.index];
-            std::vector<slice> finer;
-            double from = all.lower();
-            for (int k = 1; k <= begin_with; ++k) {
-                double const way = static_cast<double>(k) / begin_with;
-                double const to =
-                    k == begin_with ? all.upper() : all.lower() + way * (all.upper() - all.lower());
-                for (auto const& s : waiting) {
-                    finer.push_back(s);
-                    finer.back().all.parameters[side.index] = interval(from, to);
-                }
-                from = to;
-            }
-            waiting = std::move(finer);
-        }
-        // Of several sides there are many slices, and most narrow ones are unknowns besides.
-        double const narrow = (sliced.sides.size() == 1 ? 1 : 4) * search_.accuracy();
+        auto const prior = left_by_untouched(whole, sliced);
+        if (!prior) return {empty_box(whole.prior.size())};
+        auto waiting = first_slices(*prior, sliced); // in the order of coming
         explained_hull hulls;
         for (std::size_t next = 0; next < waiting.size(); ++next) {
             auto const now = waiting[next];
@@ -107,35 +84,67 @@ private:
             if (!found) continue;
             auto const left = explained_by(whole, sliced, now.all, over, *found);
             if (!left) continue;
-            // Closer, the inputs have less of an error.
-            bool const closer =
-                std::any_of(sliced.sides.begin(), sliced.sides.end(), [&](auto const& side) {
-                    auto const j = side.index;
-                    return width(left->parameters[j]) < 0.7 * width(now.all.parameters[j]);
-                });
-            if (closer) {
-                waiting.push_back({*left, now.share});
-                continue;
-            }
-            if (now.share < most_of_slice) {
-                waiting.push_back({*left, std::min(most_of_slice, 4 * now.share)});
-                continue;
-            }
-            auto const j = widest(sliced, left->parameters, whole.prior);
-            auto const& widest_side = left->parameters[j];
-            double const half = mid(widest_side);
-            bool const splits = widest_side.lower() < half && half < widest_side.upper();
-            if (!(width(widest_side) > narrow * width(whole.prior[j])) || !splits) {
-                hulls.join(*left);
-                continue;
-            }
-            for (bool const lower : {true, false}) {
-                waiting.push_back({*left, least_of_slice});
-                auto& side = waiting.back().all.parameters[j];
-                side = lower ? interval(side.lower(), half) : interval(half, side.upper());
-            }
+            auto const finer = once_more(now, *left, whole, sliced);
+            if (finer.empty()) hulls.join(*left);
+            waiting.insert(waiting.end(), finer.begin(), finer.end());
         }
         return or_nothing(std::move(hulls), whole);
+    }
+    [[nodiscard]] std::optional<explained_hull>
+    left_by_untouched(identification_problem const& whole, sliced_input const& sliced) const {
+        explained_hull prior{whole.prior};
+        if (!sliced.untouched || !search_.in_time()) return prior;
+        auto const found = search_(*sliced.untouched, 1, of_untouched);
+        if (!found) return std::nullopt;
+        return explained_by(whole, sliced, prior, *sliced.untouched, *found);
+    }
+    /// Every side in pieces of one width: few of several, since wider ones are rarely excluded.
+    [[nodiscard]] static std::vector<slice> first_slices(explained_hull const& prior,
+                                                         sliced_input const& sliced) {
+        std::vector<slice> slices{{prior, least_of_slice}};
+        int const pieces = sliced.sides.size() == 1 ? 8 : 4;
+        for (auto const& side : sliced.sides) {
+            auto const& all = prior.parameters[side.index];
+            std::vector<slice> finer;
+            double from = all.lower();
+            for (int k = 1; k <= pieces; ++k) {
+                double const way = static_cast<double>(k) / pieces;
+                double const to =
+                    k == pieces ? all.upper() : all.lower() + way * (all.upper() - all.lower());
+                for (auto const& s : slices) {
+                    finer.push_back(s);
+                    finer.back().all.parameters[side.index] = interval(from, to);
+                }
+                from = to;
+            }
+            slices = std::move(finer);
+        }
+        return slices;
+    }
+    /// How a slice is searched again, of which something is left: cut to that, with more boxes, or
+    /// in halves; not at all where it is narrow.
+    [[nodiscard]] std::vector<slice> once_more(slice const& now, explained_hull const& left,
+                                               identification_problem const& whole,
+                                               sliced_input const& sliced) const {
+        // Closer, the inputs have less of an error.
+        bool const closer =
+            std::any_of(sliced.sides.begin(), sliced.sides.end(), [&](auto const& side) {
+                auto const j = side.index;
+                return width(left.parameters[j]) < 0.7 * width(now.all.parameters[j]);
+            });
+        if (closer) return {{left, now.share}};
+        if (now.share < most_of_slice) return {{left, std::min(most_of_slice, 4 * now.share)}};
+        auto const j = widest(sliced, left.parameters, whole.prior);
+        auto const& side = left.parameters[j];
+        double const half = mid(side);
+        bool const splits = side.lower() < half && half < side.upper();
+        // Of several sides there are many slices, and most narrow ones are unknowns besides.
+        double const narrow = (sliced.sides.size() == 1 ? 1 : 4) * search_.accuracy();
+        if (!(width(side) > narrow * width(whole.prior[j])) || !splits) return {};
+        std::vector<slice> halves(2, {left, least_of_slice});
+        halves[0].all.parameters[j] = interval(side.lower(), half);
+        halves[1].all.parameters[j] = interval(half, side.upper());
+        return halves;
     }
     /// The sliced side that is the largest share of its prior.
     [[nodiscard]] static std::size_t widest(sliced_input const& sliced, box const& all,

@@ -8,6 +8,7 @@
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -71,30 +72,46 @@ SIVID_DECL sampled_signal lagged_within(sampled_signal const& u, double begin, d
     return std::move(result).take();
 }
 
+namespace diagnosis_detail {
+
+/// More than the relative error of a few roundings.
+inline constexpr double rounding_unit = 4 * std::numeric_limits<double>::epsilon();
+
+/// How far an interval reaches from its middle, as that is rounded.
+inline double about_middle(interval const& x) {
+    return std::max(x.upper() - mid(x), mid(x) - x.lower());
+}
+
+/// The time that is farthest from 0, of the samples or the ends.
+inline double farthest_time(sampled_signal const& u, double begin, double end) {
+    double farthest = std::max(std::abs(begin), std::abs(end));
+    for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
+    return farthest;
+}
+
+} // namespace diagnosis_detail
+
 SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, double end,
                                          interval const& delays, interval const& drifts) {
+    using namespace diagnosis_detail;
     if (!(drifts.upper() < 1)) { // the clock may stand: anything that was
-        auto const all = diagnosis_detail::seen_between(u, begin, begin, end);
+        auto const all = seen_between(u, begin, begin, end);
         measurement_detail::widened_signal any(interpolation::hold);
         any.add(begin, all.values, all.error);
         return std::move(any).take();
     }
     bool const holds = u.kind() == interpolation::hold;
     dead_time const middle{mid(delays), mid(drifts)};
-    double farthest = std::max(std::abs(begin), std::abs(end));
-    for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
     // Sums of times are rounded: knots lie safely beyond what is within reach.
-    double const unit = 4 * std::numeric_limits<double>::epsilon();
+    double const farthest = farthest_time(u, begin, end);
     double const pace = 1 - drifts.upper(); // of the slowest clock
     double const rounding =
-        unit * (farthest + delays.upper()) * (drifts.upper() > 0 ? 8 / (pace * pace) : 1);
-    auto const radius = [](interval const& x) {
-        return std::max(x.upper() - mid(x), mid(x) - x.lower());
-    };
+        rounding_unit * (farthest + delays.upper()) * (drifts.upper() > 0 ? 8 / (pace * pace) : 1);
     // How far what is seen at t may be from where it is in the middle.
     auto const reach = [&](double t) {
         double const since = std::max(0.0, t - begin);
-        return (radius(delays) + radius(drifts) * since) * (1 + unit) + rounding;
+        return (about_middle(delays) + about_middle(drifts) * since) * (1 + rounding_unit) +
+               rounding;
     };
     auto const source = [&](double t) {
         return t - middle.delay - middle.drift * std::max(0.0, t - begin);
@@ -112,8 +129,7 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
     if (!holds) times.push_back(middle.seen(begin, begin)); // where u(begin) is left
     auto const grid = measurement_detail::grid_of(std::move(times), begin, end);
     auto const seen = [&](double from, double until) {
-        return diagnosis_detail::seen_between(u, begin, source(from) - reach(from),
-                                              source(until) + reach(until));
+        return seen_between(u, begin, source(from) - reach(from), source(until) + reach(until));
     };
     measurement_detail::widened_signal result(u.kind());
     double before = 0; // of the piece to the left
@@ -126,7 +142,8 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
             continue;
         }
         double const error =
-            (reach(std::min(next, end)) + 2 * rounding) * after.steepest * (1 + unit) + after.error;
+            (reach(std::min(next, end)) + 2 * rounding) * after.steepest * (1 + rounding_unit) +
+            after.error;
         double const t = std::max(begin, source(grid[k]));
         result.add(grid[k], u.value<interval>(u.piece(t), interval(t)), std::max(before, error));
         before = error;
@@ -134,56 +151,68 @@ SIVID_DECL sampled_signal delayed_within(sampled_signal const& u, double begin, 
     return std::move(result).take();
 }
 
-SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double begin, double end,
-                                                interval const& delays) {
-    using traits = interval_traits<interval>;
-    input_of_parameter late;
-    double const middle = late.at = mid(delays);
-    double farthest = std::max(std::abs(begin), std::abs(end));
-    for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
-    double const unit = 4 * std::numeric_limits<double>::epsilon();
-    double const rounding = unit * (farthest + delays.upper()); // of a sum of times
-    double const reach =
-        std::max(delays.upper() - middle, middle - delays.lower()) * (1 + unit) + rounding;
+namespace diagnosis_detail {
 
-    // Where the slope changes, and by how much: from 0 at the begin, where u(begin) is left.
+/// The slopes of straight lines: where they change, and by how much, from 0 at the begin, where
+/// u(begin) is left.
+struct line_slopes {
     struct knot {
         double time;
         interval change;
     };
-    auto slope = u.slope<interval>(u.piece(begin));
-    std::vector<knot> knots{{begin, slope}};
-    std::vector<double> times{begin}, slopes{0.0};
-    double steepest = mag(slope), vague = rad(slope);
-    auto const turn = [&](double at, interval const& to) {
-        double const t = std::max(begin, at + middle);
-        if (!(t > times.back())) { // as close as rounding: the later one holds
-            slopes.back() = -mid(to);
-            return;
+    std::vector<knot> knots;
+    double steepest = 0, vague = 0; ///< the largest size of a slope, and radius of its enclosure
+    /// Less the slope's middle, as it is seen `late` after the begin and the knots, held.
+    sampled_signal by_delay;
+
+    line_slopes(sampled_signal const& u, double begin, double late) {
+        using traits = interval_traits<interval>;
+        std::vector<double> times{begin}, slopes{0.0};
+        auto const turn = [&](double at, interval const& to) {
+            double const t = std::max(begin, at + late);
+            steepest = std::max(steepest, mag(to));
+            vague = std::max(vague, rad(to));
+            if (!(t > times.back())) { // as close as rounding: the later one holds
+                slopes.back() = -mid(to);
+                return;
+            }
+            times.push_back(t);
+            slopes.push_back(-mid(to));
+        };
+        auto slope = u.slope<interval>(u.piece(begin));
+        knots.push_back({begin, slope});
+        turn(begin, slope);
+        for (std::size_t k = 1; k + 1 < u.times().size(); ++k) {
+            if (!(u.times()[k] > begin)) continue;
+            auto const next = u.slope<interval>(k);
+            if (u.exact() && mag(next) == 0 && mag(slope) == 0) continue; // it stands still
+            knots.push_back({u.times()[k], traits::sub(next, slope)});
+            turn(u.times()[k], next);
+            slope = next;
         }
-        times.push_back(t);
-        slopes.push_back(-mid(to));
-    };
-    turn(begin, slope);
-    for (std::size_t k = 1; k + 1 < u.times().size(); ++k) {
-        if (!(u.times()[k] > begin)) continue;
-        auto const next = u.slope<interval>(k);
-        if (u.exact() && mag(next) == 0 && mag(slope) == 0) continue; // it stands still
-        knots.push_back({u.times()[k], traits::sub(next, slope)});
-        turn(u.times()[k], next);
-        slope = next;
-        steepest = std::max(steepest, mag(slope));
-        vague = std::max(vague, rad(slope));
+        by_delay = sampled_signal(std::move(times), std::move(slopes), interpolation::hold);
     }
-    late.slope = sampled_signal(std::move(times), std::move(slopes), interpolation::hold);
+};
+
+} // namespace diagnosis_detail
+
+SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double begin, double end,
+                                                interval const& delays) {
+    using namespace diagnosis_detail;
+    using traits = interval_traits<interval>;
+    double const middle = mid(delays);
+    double const rounding = rounding_unit * (farthest_time(u, begin, end) + delays.upper());
+    double const reach = about_middle(delays) * (1 + rounding_unit) + rounding;
+    line_slopes lines(u, begin, middle);
+    auto const& knots = lines.knots;
 
     std::vector<double> grid_times;
     for (auto const& k : knots)
         for (double const side : {-reach, 0.0, reach}) grid_times.push_back(k.time + middle + side);
     auto const grid = measurement_detail::grid_of(std::move(grid_times), begin, end);
     // The lines between these times turn there but for the rounding of the times themselves.
-    double const slack =
-        8 * (static_cast<double>(knots.size()) + 2) * steepest * rounding + 4 * reach * vague;
+    double const slack = 8 * (static_cast<double>(knots.size()) + 2) * lines.steepest * rounding +
+                         4 * reach * lines.vague;
     measurement_detail::widened_signal result(interpolation::linear);
     std::size_t first = 0;
     for (std::size_t n = 0; n < grid.size(); ++n) {
@@ -204,14 +233,12 @@ SIVID_DECL input_of_parameter late_by_parameter(sampled_signal const& u, double 
         if (!u.exact()) {
             double const from = n == 0 ? grid[n] : grid[n - 1];
             double const to = n + 1 == grid.size() ? grid[n] : grid[n + 1];
-            error +=
-                diagnosis_detail::seen_between(u, begin, from - middle - reach, to - middle + reach)
-                    .error;
+            error += seen_between(u, begin, from - middle - reach, to - middle + reach).error;
         }
-        result.add(grid[n], value, error * (1 + unit * static_cast<double>(knots.size() + 4)));
+        auto const roundings = static_cast<double>(knots.size() + 4);
+        result.add(grid[n], value, error * (1 + rounding_unit * roundings));
     }
-    late.middle = std::move(result).take();
-    return late;
+    return {std::move(result).take(), std::move(lines.by_delay), middle};
 }
 
 SIVID_DECL input_of_parameter limited_by_parameter(sampled_signal const& u, double begin,
@@ -220,66 +247,95 @@ SIVID_DECL input_of_parameter limited_by_parameter(sampled_signal const& u, doub
     return {std::move(y.about), std::move(y.by_limit), mid(limits)};
 }
 
+namespace diagnosis_detail {
+
+/// Thresholds in an interval, by its middle and half its width.
+struct threshold_range {
+    bool stands; ///< beyond it: saturation; else dead band
+    double middle, half;
+
+    threshold_range(bool beyond, interval const& thresholds)
+        : stands(beyond),
+          middle(mid(thresholds)),
+          half(about_middle(thresholds) * (1 + rounding_unit)) {}
+
+    /// Sizes at which what the input becomes bends: the ends of the interval, its middle, and 0.
+    [[nodiscard]] std::array<double, 4> levels() const {
+        return {middle - half, middle, middle + half, 0.0};
+    }
+    /// What a size becomes at the middle threshold.
+    [[nodiscard]] interval behind(interval const& size) const {
+        using traits = interval_traits<interval>;
+        return stands ? traits::min(size, interval(middle))
+                      : traits::max(traits::sub(size, interval(middle)), interval(0.0));
+    }
+    /// How far it bends from there about the middle: half of what is left of the half width.
+    [[nodiscard]] interval bent(interval const& size) const {
+        using traits = interval_traits<interval>;
+        auto const left = traits::max(
+            traits::sub(interval(half), traits::abs(traits::sub(size, interval(middle)))),
+            interval(0.0));
+        return traits::mul(interval(stands ? -0.5 : 0.5), left);
+    }
+};
+
+/// The knots within [begin, end], and where the input's size passes one of the levels.
+inline std::vector<double> times_at_levels(sampled_signal const& u, double begin, double end,
+                                           std::array<double, 4> const& levels) {
+    std::vector<double> times = u.times();
+    auto const add = [&](double from, double value, double slope) {
+        if (slope == 0 || u.kind() == interpolation::hold) return;
+        for (double const level : levels)
+            for (double const sign : {1.0, -1.0})
+                times.push_back(from + (sign * level - value) / slope);
+    };
+    auto const slope = [&](double t) { return mid(u.slope<interval>(u.piece(t))); };
+    for (std::size_t k = 0; k < u.times().size(); ++k)
+        add(u.times()[k], u.values()[k], slope(u.times()[k]));
+    add(begin, u.approximate(begin), slope(begin)); // straight lines go on to the left, too
+    std::erase_if(times, [&](double t) { return !(t >= begin && t <= end); });
+    return measurement_detail::grid_of(std::move(times), begin, end);
+}
+
+/// By how much the input moves at most where the times at which levels are passed are rounded.
+inline double slack_at_levels(sampled_signal const& u, double begin, double end,
+                              threshold_range const& threshold) {
+    double largest = std::max(std::abs(u.approximate(begin)), std::abs(u.approximate(end)));
+    double steepest = 0;
+    for (std::size_t k = 0; k < u.times().size(); ++k) {
+        largest = std::max(largest, std::abs(u.values()[k]));
+        double const slope = mid(u.slope<interval>(u.piece(u.times()[k])));
+        steepest = std::max(steepest, std::abs(slope));
+    }
+    return 16 * rounding_unit *
+           (largest + threshold.middle + threshold.half + steepest * farthest_time(u, begin, end));
+}
+
+} // namespace diagnosis_detail
+
 SIVID_DECL input_of_parameter threshold_by_parameter(sampled_signal const& u, double begin,
                                                      double end, bool stands,
                                                      interval const& thresholds) {
+    using namespace diagnosis_detail;
     using traits = interval_traits<interval>;
     bool const holds = u.kind() == interpolation::hold;
-    input_of_parameter result;
-    double const middle = result.at = mid(thresholds);
-    double const unit = 4 * std::numeric_limits<double>::epsilon();
-    double const half =
-        std::max(thresholds.upper() - middle, middle - thresholds.lower()) * (1 + unit);
-    double farthest = std::max(std::abs(begin), std::abs(end));
-    for (double const t : u.times()) farthest = std::max(farthest, std::abs(t));
-
-    // The knots, and where the input's size passes the ends of the interval, its middle, and 0.
-    std::vector<double> times = u.times();
-    double largest = 0, steepest = 0;
-    auto const at = [&](double t) { return u.approximate(t); };
-    for (std::size_t k = 0; k < u.times().size(); ++k) {
-        largest = std::max(largest, std::abs(u.values()[k]));
-        double const s = mid(u.slope<interval>(u.piece(u.times()[k])));
-        steepest = std::max(steepest, std::abs(s));
-        if (holds || s == 0) continue;
-        for (double const level : {middle - half, middle, middle + half, 0.0})
-            for (double const sign : {1.0, -1.0})
-                times.push_back(u.times()[k] + (sign * level - u.values()[k]) / s);
-    }
-    auto const before = u.piece(begin); // straight lines go on to the left, too
-    if (!holds) {
-        double const s = mid(u.slope<interval>(before));
-        for (double const level : {middle - half, middle, middle + half, 0.0})
-            for (double const sign : {1.0, -1.0})
-                if (s != 0) times.push_back(begin + (sign * level - at(begin)) / s);
-    }
-    std::erase_if(times, [&](double t) { return !(t >= begin && t <= end); });
-    auto const grid = measurement_detail::grid_of(std::move(times), begin, end);
-    largest = std::max({largest, std::abs(at(begin)), std::abs(at(end))});
-    // The times at which levels are passed are rounded, which moves the input by so much at most.
-    double const slack = 16 * unit * (largest + middle + half + steepest * farthest);
-
+    threshold_range const threshold(stands, thresholds);
+    auto const grid = times_at_levels(u, begin, end, threshold.levels());
+    double const slack = slack_at_levels(u, begin, end, threshold);
     measurement_detail::widened_signal values(u.kind());
     std::vector<double> slope_times, slopes;
     for (std::size_t n = 0; n < grid.size(); ++n) {
         auto const piece = u.piece(grid[n]);
-        auto const recorded = u.value<interval>(piece, interval(grid[n]));
-        auto const size = traits::abs(recorded);
+        auto const size = traits::abs(u.value<interval>(piece, interval(grid[n])));
         // On which side the input is, on the way to the next time.
         bool const last = n + 1 == grid.size();
         double const soon = holds || last ? grid[n] : grid[n] + 0.5 * (grid[n + 1] - grid[n]);
         double const typical = mid(u.value<interval>(piece, interval(soon)));
         double const sign = typical < 0 ? -1 : 1;
-        bool const beyond = std::abs(typical) >= middle;
+        bool const beyond = std::abs(typical) >= threshold.middle;
         auto const signed_size = [&](interval const& x) { return traits::mul(interval(sign), x); };
-        auto value =
-            stands ? signed_size(traits::min(size, interval(middle)))
-                   : signed_size(traits::max(traits::sub(size, interval(middle)), interval(0.0)));
-        auto const left = traits::max(
-            traits::sub(interval(half), traits::abs(traits::sub(size, interval(middle)))),
-            interval(0.0));
-        auto const bent = traits::mul(interval(stands ? -0.5 : 0.5), left);
-        value = traits::add(value, signed_size(bent));
+        auto const bent = threshold.bent(size);
+        auto const value = traits::add(signed_size(threshold.behind(size)), signed_size(bent));
         double const from = n == 0 ? grid[n] : grid[n - 1], to = last ? grid[n] : grid[n + 1];
         double const own = std::max({u.error_bound(u.piece(from), from),
                                      u.error_bound(piece, grid[n]), u.error_bound(piece, to)});
@@ -289,9 +345,9 @@ SIVID_DECL input_of_parameter threshold_by_parameter(sampled_signal const& u, do
         slope_times.push_back(grid[n]);
         slopes.push_back(slope);
     }
-    result.middle = std::move(values).take();
-    result.slope = sampled_signal(std::move(slope_times), std::move(slopes), interpolation::hold);
-    return result;
+    return {std::move(values).take(),
+            sampled_signal(std::move(slope_times), std::move(slopes), interpolation::hold),
+            threshold.middle};
 }
 
 namespace diagnosis_detail {

@@ -89,6 +89,123 @@ struct late_clock {
     }
 };
 
+/// The inputs of a motion under a late clock: the recorded ones, which are late, and those that it
+/// has besides. A slope is what the parameter, the distance from the middle delay, is times.
+struct late_inputs {
+    std::string sensor, clock, clock_slope;
+    std::string shown, shown_slope;    ///< what the clock shows: only where the rates are `timed`
+    std::vector<std::size_t> recorded; ///< the others are switches
+    std::vector<std::string> names;    ///< of the recorded ones
+    bool timed = false;                ///< whether the rates depend on the time
+
+    late_inputs(identification_problem const& base, std::string const& of)
+        : sensor(of),
+          clock(of + "_clock"),
+          clock_slope(of + "_clock_slope"),
+          shown(of + "_time"),
+          shown_slope(of + "_time_slope") {
+        auto const& model = base.model;
+        for (std::size_t i = 0; i < model.about.inputs.size(); ++i) {
+            auto const is = [i](experiment const& x) {
+                return std::holds_alternative<sampled_signal>(x.inputs[i]);
+            };
+            if (std::none_of(base.experiments.begin(), base.experiments.end(), is)) continue;
+            if (counts_readings(model.about.inputs[i].name)) continue; // at their own times
+            recorded.push_back(i);
+            names.push_back(model.about.inputs[i].name);
+        }
+        timed = std::any_of(model.rate.begin(), model.rate.end(),
+                            [&](node_id n) { return (model.g.depends(n) & on_time) != 0; });
+    }
+    [[nodiscard]] std::string slope_of(std::string const& input) const {
+        return sensor + "_slope_" + input;
+    }
+    /// Those that the base has not.
+    [[nodiscard]] std::vector<std::string> added() const {
+        std::vector<std::string> all{clock, clock_slope};
+        for (auto const& u : names) all.push_back(slope_of(u));
+        if (timed) all.insert(all.end(), {shown, shown_slope});
+        return all;
+    }
+};
+
+/// The sensor as a clock that begins late, and effects that change nothing, for the sake of their
+/// inputs.
+inline std::vector<effect> clock_effects(identification_problem const& base, effect const& sensor,
+                                         late_inputs const& own) {
+    std::vector<effect> all{sensor};
+    auto& e = all[0];
+    e.only_in.clear(); // that is told by which parts there are
+    e.on_channels = nullptr;
+    e.on_inputs = [own](effect_scope& h) {
+        for (auto const& u : own.names) h.input(u) += h.input(own.slope_of(u)) * h.parameter();
+        if (own.timed) h.time() = h.input(own.shown) + h.input(own.shown_slope) * h.parameter();
+    };
+    e.on_rates = [states = base.model.about.states, own](effect_scope& h) {
+        auto const rate = h.input(own.clock) + h.input(own.clock_slope) * h.parameter();
+        for (auto const& s : states) h.rate(s.name) = rate * h.rate(s.name);
+    };
+    std::vector<std::string> everywhere;
+    for (auto const& x : base.experiments) everywhere.push_back(x.name);
+    for (auto const& name : own.added()) {
+        auto& helper = all.emplace_back();
+        helper.name = name;
+        helper.only_in = everywhere;
+    }
+    return all;
+}
+
+inline analytic_signal constant_signal(double c) {
+    return analytic_signal::from([c](auto const&) { return c; });
+}
+
+/// The inputs of an experiment whose clock is right.
+inline std::vector<signal> inputs_in_time(experiment const& x, model_description const& about,
+                                          late_inputs const& own) {
+    auto inputs = x.inputs;
+    auto const input = [&](std::string const& name) -> signal& {
+        return inputs[index_of(about.inputs, name, "input")];
+    };
+    for (auto const& name : own.added()) input(name) = constant_signal(name == own.clock ? 1 : 0);
+    if (own.timed) input(own.shown) = analytic_signal::from([](auto const& t) { return t; });
+    return inputs;
+}
+
+/// The inputs of the same motion begun later, under late inputs.
+inline std::vector<signal> inputs_behind(experiment const& x, model_description const& about,
+                                         late_inputs const& own, late_clock const& clock,
+                                         interval const& delays) {
+    auto inputs = x.inputs;
+    auto const input = [&](std::string const& name) -> signal& {
+        return inputs[index_of(about.inputs, name, "input")];
+    };
+    input(own.clock) = clock.rate;
+    input(own.clock_slope) = clock.slope;
+    if (own.timed) {
+        input(own.shown) = clock.time;
+        input(own.shown_slope) = clock.time_slope;
+    }
+    for (std::size_t i = 0; i < own.names.size(); ++i) {
+        auto const& u = std::get<sampled_signal>(x.inputs[own.recorded[i]]);
+        auto& slope = input(own.slope_of(own.names[i]));
+        sampled_signal middle;
+        if (u.kind() == interpolation::linear) {
+            auto line = late_by_parameter(u, x.begin, x.end(), delays);
+            middle = std::move(line.middle);
+            slope = std::move(line.slope);
+        } else {
+            middle = delayed_within(u, x.begin, x.end(), delays);
+            slope = constant_signal(0);
+        }
+        // While the clock is slow, the input is one of the first ones.
+        auto const first =
+            seen_between(u, x.begin, x.begin, x.begin + 2 * (clock.runs - clock.stands));
+        inputs[own.recorded[i]] = widened_between(middle, clock.stands, clock.runs,
+                                                  width(first.values) + 2 * first.error);
+    }
+    return inputs;
+}
+
 } // namespace diagnosis_detail
 
 SIVID_DECL identification_problem with_late_channels(identification_problem const& base,
@@ -96,106 +213,36 @@ SIVID_DECL identification_problem with_late_channels(identification_problem cons
                                                      std::vector<bool> const& late,
                                                      interval const& delays,
                                                      std::vector<switch_times> const& when) {
-    auto const constant = [](double c) {
-        return analytic_signal::from([c](auto const&) { return c; });
-    };
-    std::vector<effect> with_clock{sensor};
-    auto& e = with_clock[0];
-    e.only_in.clear(); // that is told by which parts there are
-    auto const parameter = e.name + "." + e.parameters[0].name;
-    auto const clock = e.name + "_clock", clock_slope = e.name + "_clock_slope";
-    auto const slope_of = [name = e.name](std::string const& input) {
-        return name + "_slope_" + input;
-    };
-    std::vector<std::size_t> recorded; // the others are switches
-    std::vector<std::string> inputs, everywhere;
-    for (std::size_t i = 0; i < base.model.about.inputs.size(); ++i) {
-        auto const is = [i](experiment const& x) {
-            return std::holds_alternative<sampled_signal>(x.inputs[i]);
-        };
-        if (std::none_of(base.experiments.begin(), base.experiments.end(), is)) continue;
-        if (counts_readings(base.model.about.inputs[i].name)) continue; // at their own times
-        recorded.push_back(i);
-        inputs.push_back(base.model.about.inputs[i].name);
-    }
-    for (auto const& x : base.experiments) everywhere.push_back(x.name);
-    e.on_channels = nullptr;
-    bool const timed = std::any_of(base.model.rate.begin(), base.model.rate.end(), [&](node_id n) {
-        return (base.model.g.depends(n) & on_time) != 0;
-    });
-    auto const shown = e.name + "_time", shown_slope = e.name + "_time_slope";
-    e.on_inputs = [inputs, slope_of, timed, shown, shown_slope](effect_scope& h) {
-        for (auto const& u : inputs) h.input(u) += h.input(slope_of(u)) * h.parameter();
-        if (timed) h.time() = h.input(shown) + h.input(shown_slope) * h.parameter();
-    };
-    e.on_rates = [states = base.model.about.states, clock, clock_slope](effect_scope& h) {
-        auto const rate = h.input(clock) + h.input(clock_slope) * h.parameter();
-        for (auto const& s : states) h.rate(s.name) = rate * h.rate(s.name);
-    };
-    // Effects that change nothing, for the sake of their inputs.
-    std::vector<std::string> own{clock, clock_slope};
-    for (auto const& u : inputs) own.push_back(slope_of(u));
-    if (timed) own.insert(own.end(), {shown, shown_slope});
-    for (auto const& name : own) {
-        auto& helper = with_clock.emplace_back();
-        helper.name = name;
-        helper.only_in = everywhere;
-    }
-    auto problem = affected(base, with_clock);
-    auto const place = [&](std::string const& name) {
-        return index_of(problem.model.about.inputs, name, "input");
-    };
+    using namespace diagnosis_detail;
+    late_inputs const own(base, sensor.name);
+    auto problem = affected(base, clock_effects(base, sensor, own));
+    auto const& about = problem.model.about;
     std::vector<experiment> parts;
     for (std::size_t s = 0; s < problem.experiments.size(); ++s) {
         auto const& x = problem.experiments[s];
-        auto in_time = x, behind = x;
         bool const acts = sensor.acts_in(x.name);
         auto const at = [&](double t) {
             return when.empty() ? switch_values{!acts, acts}
                                 : switch_at(x.begin, x.end(), when[s], t);
         };
+        auto in_time = x, behind = x;
+        in_time.inputs = inputs_in_time(x, about, own);
         std::erase_if(in_time.measurements,
                       [&](auto const& m) { return late[m.channel] && at(m.time).on; });
-        for (auto const& name : own) in_time.inputs[place(name)] = constant(name == clock ? 1 : 0);
-        if (timed) {
-            in_time.inputs[place(shown)] = analytic_signal::from([](auto const& t) { return t; });
-        }
-        diagnosis_detail::late_clock const time(x.begin, delays);
+        late_clock const clock(x.begin, delays);
+        behind.name += "_late";
+        behind.inputs = inputs_behind(x, about, own, clock, delays);
         std::erase_if(behind.measurements, [&](auto const& m) {
             return !late[m.channel] || at(m.time).off ||
-                   (m.time > time.stands && m.time < time.runs);
+                   (m.time > clock.stands && m.time < clock.runs);
         });
-        behind.name += "_late";
-        behind.inputs[place(clock)] = time.rate;
-        behind.inputs[place(clock_slope)] = time.slope;
-        if (timed) {
-            behind.inputs[place(shown)] = time.time;
-            behind.inputs[place(shown_slope)] = time.time_slope;
-        }
-        for (std::size_t i = 0; i < inputs.size(); ++i) {
-            auto const& u = std::get<sampled_signal>(x.inputs[recorded[i]]);
-            auto& slope = behind.inputs[place(slope_of(inputs[i]))];
-            sampled_signal middle;
-            if (u.kind() == interpolation::linear) {
-                auto line = late_by_parameter(u, x.begin, x.end(), delays);
-                middle = std::move(line.middle);
-                slope = std::move(line.slope);
-            } else {
-                middle = delayed_within(u, x.begin, x.end(), delays);
-                slope = constant(0);
-            }
-            // While the clock is slow, the input is one of the first ones.
-            auto const first = diagnosis_detail::seen_between(
-                u, x.begin, x.begin, x.begin + 2 * (time.runs - time.stands));
-            behind.inputs[recorded[i]] = diagnosis_detail::widened_between(
-                middle, time.stands, time.runs, width(first.values) + 2 * first.error);
-        }
         for (auto* part : {&in_time, &behind}) {
             part->outliers = std::min(part->outliers, part->measurements.size());
             if (!part->measurements.empty()) parts.push_back(std::move(*part));
         }
     }
     problem.experiments = std::move(parts);
+    auto const parameter = sensor.name + "." + sensor.parameters[0].name;
     auto& side = problem.prior[index_of_parameter(problem, parameter)];
     side = interval_traits<interval>::sub(delays, interval(mid(delays)));
     return problem;

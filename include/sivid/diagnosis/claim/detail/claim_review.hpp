@@ -118,6 +118,36 @@ inline void review_relations(diagnosis_run& run) {
     d.where = reported(run.places, run.findings);
 }
 
+/// Takes back what is said of a cause: that it is excluded, by a relation or by its inflation.
+inline void doubt_cause(cause& c) {
+    bool const explains = c.inflation.upper() <= 1;
+    c.verdict = explains && c.witness ? cause_verdict::explains : cause_verdict::undecided;
+    if (!c.excluded_by.empty()) {
+        c.excluded_by.clear();
+        c.assumptions.clear();
+        return;
+    }
+    double const most = explains ? c.inflation.upper() : unknown_inflation().upper();
+    c.inflation = interval_traits<interval>::bounds(0, most);
+}
+
+/// Takes back an answer that is excluded, and excluded ones that were said to be like it.
+inline void doubt_answer(diagnosis& d) {
+    auto const excluded = [&d](auto const& effects) {
+        return std::any_of(d.causes.begin(), d.causes.end(), [&effects](cause const& k) {
+            return k.effects == effects && k.verdict == cause_verdict::excluded;
+        });
+    };
+    std::erase_if(d.indistinguishable, excluded);
+    if (d.answer != answer_kind::none && d.answer != answer_kind::effects) {
+        answer_by_proof(d);
+        return;
+    }
+    if (d.answer == answer_kind::effects && !excluded(d.effects)) return;
+    d.effects.clear();
+    d.answer = d.tried.complete() ? answer_kind::unexplained : answer_kind::open;
+}
+
 /// Withdraws what is in doubt, and what rests on it, until nothing contradicts anything; every
 /// claim that was withdrawn stands in `d.withdrawn`.
 inline void withdraw_contradictions(diagnosis& d,
@@ -148,21 +178,9 @@ inline void withdraw_contradictions(diagnosis& d,
                 d.where[c.index].missing.reset();
                 d.where[c.index].assumptions.clear();
                 break;
-            case about::cause: {
-                auto& cause = d.causes[c.index];
-                bool const explains = cause.inflation.upper() <= 1;
-                cause.verdict =
-                    explains && cause.witness ? cause_verdict::explains : cause_verdict::undecided;
-                if (!cause.excluded_by.empty()) {
-                    cause.excluded_by.clear();
-                    cause.assumptions.clear();
-                } else {
-                    auto const infinity = unknown_inflation().upper();
-                    cause.inflation = interval_traits<interval>::bounds(
-                        0, explains ? cause.inflation.upper() : infinity);
-                }
+            case about::cause:
+                doubt_cause(d.causes[c.index]);
                 break;
-            }
             case about::hull:
                 d.causes[c.index].parameters[c.member].hull.reset();
                 break;
@@ -179,23 +197,7 @@ inline void withdraw_contradictions(diagnosis& d,
                 d.shrink_fit.reset();
                 break;
             case about::answer:
-                std::erase_if(d.indistinguishable, [&d](auto const& other) {
-                    return std::any_of(d.causes.begin(), d.causes.end(), [&](cause const& k) {
-                        return k.effects == other && k.verdict == cause_verdict::excluded;
-                    });
-                });
-                if (d.answer == answer_kind::none || d.answer == answer_kind::effects) {
-                    bool const chosen_excluded =
-                        d.answer == answer_kind::none ||
-                        std::any_of(d.causes.begin(), d.causes.end(), [&d](cause const& k) {
-                            return k.effects == d.effects && k.verdict == cause_verdict::excluded;
-                        });
-                    if (!chosen_excluded) break;
-                    d.effects.clear();
-                    d.answer = d.tried.complete() ? answer_kind::unexplained : answer_kind::open;
-                } else {
-                    answer_by_proof(d);
-                }
+                doubt_answer(d);
                 break;
             }
         }

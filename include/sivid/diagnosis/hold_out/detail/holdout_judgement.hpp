@@ -46,6 +46,27 @@ inline void measure_tube(identification_problem const& judged,
     result.width = width_sum / static_cast<double>(samples);
 }
 
+/// The root mean square error of each channel, in its unit.
+/// @param residuals  by experiment and sample, as shares of the bounds' radii
+inline std::vector<double> rmse_of(identification_problem const& judged,
+                                   std::vector<std::vector<double>> const& residuals) {
+    auto const& channels = judged.model.about.channels;
+    std::vector<double> squares(channels.size(), 0.0);
+    std::vector<double> count(channels.size(), 0.0);
+    for (std::size_t s = 0; s < residuals.size(); ++s) {
+        auto const data = sorted(judged.experiments[s].measurements);
+        for (std::size_t k = 0; k < data.size(); ++k) {
+            double const off = residuals[s][k] * rad(data[k].bound);
+            squares[data[k].channel] += off * off;
+            count[data[k].channel] += 1;
+        }
+    }
+    std::vector<double> rmse;
+    for (std::size_t y = 0; y < channels.size(); ++y)
+        rmse.push_back(std::sqrt(squares[y] / count[y]));
+    return rmse;
+}
+
 } // namespace diagnosis_detail
 
 /// Judges a fitted candidate by hold-out experiments. Their own starts, nuisances, are fitted;
@@ -105,21 +126,7 @@ judge_by_holdout(screened const& fitted, verified_inflation const& bound,
         if (!sliced) both = intersect(both, proved.over_fits);
         if (!is_empty(both)) result.at_witness = both;
     }
-
-    auto const& channels = judged.model.about.channels;
-    std::vector<double> squares(channels.size(), 0.0);
-    std::vector<double> count(channels.size(), 0.0);
-    for (std::size_t s = 0; s < result.run.residuals.size(); ++s) {
-        auto const data = sorted(there.experiments[s].measurements);
-        for (std::size_t k = 0; k < data.size(); ++k) {
-            double const off = result.run.residuals[s][k] * rad(data[k].bound);
-            squares[data[k].channel] += off * off;
-            count[data[k].channel] += 1;
-        }
-    }
-    for (std::size_t y = 0; y < channels.size(); ++y) {
-        result.rmse.push_back(std::sqrt(squares[y] / count[y]));
-    }
+    result.rmse = diagnosis_detail::rmse_of(there, result.run.residuals);
     return result;
 }
 

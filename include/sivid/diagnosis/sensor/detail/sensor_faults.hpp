@@ -130,15 +130,12 @@ struct suspect_problem {
     suspected_sensor sensor;
 };
 
-/// @param laws         declared variations of the states' rates, per experiment
-/// @param delay, half  the delays delay - half to delay + half
-[[nodiscard]] inline suspect_problem
-suspect_of(identification_problem const& source, faulty_channel const& f,
-           std::map<std::string, std::vector<rate_variation>> const& laws, double delay,
-           double half) {
-    using traits = interval_traits<interval>;
-    suspect_problem result{source, {f.state, f.scale, f.drift, f.mixing, laws}};
-    auto& problem = result.problem;
+namespace diagnosis_detail {
+
+/// Makes the problem's model take what the sensor shows for the state: it corrects it by unknown
+/// constants, which join the prior.
+inline void correct_state(identification_problem& problem, identification_problem const& source,
+                          faulty_channel const& f) {
     auto& model = problem.model;
     std::vector<interval> sides(source.prior.begin(), source.prior.end());
     graph g;
@@ -173,56 +170,85 @@ suspect_of(identification_problem const& source, faulty_channel const& f,
     model.g = std::move(g);
     problem.prior = box(sides.size());
     for (std::size_t j = 0; j < sides.size(); ++j) problem.prior[j] = sides[j];
+}
 
+/// What a faulty sensor shows of a state at the begin, and how its rate then varies:
+///   x' = (1 + s) y' + d + sum c y_m'.
+/// @param laws  of all states in this experiment; that of the sensor's own becomes that of y
+inline void start_at_shown(experiment& e, faulty_channel const& f,
+                           std::vector<rate_variation> const& laws, rate_variation& law) {
+    using traits = interval_traits<interval>;
+    double variation = law.variation;
+    auto off = traits::add(f.offset, traits::mul(f.drift, traits::point(e.begin)));
+    for (auto const& [m, share] : f.mixing) {
+        auto const& other = laws[m];
+        double const periods = std::ceil(law.period / other.period * (1 - 1e-9));
+        variation += mag(share) * other.variation * std::max(1.0, periods);
+        off = traits::add(off, traits::mul(share, e.initial[m]));
+    }
+    law.variation = std::min(variation / (1 + f.scale.lower()) * (1 + 1e-9), 1e100);
+    bool undefined = false;
+    e.initial[f.state] = traits::div(traits::sub(e.initial[f.state], off),
+                                     traits::add(traits::point(1.0), f.scale), undefined);
+}
+
+/// The greatest rate of what samples show within some time of t: in each gap, of which the first
+/// and the last one go on beyond the samples, it is off the secant by no more than it varies by
+/// there.
+inline double steepest_about(state_samples const& samples, rate_variation const& law, double t,
+                             double near) {
+    auto const& times = samples.times;
+    double rate = times.size() > 1 ? 0 : HUGE_VAL;
+    for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+        double const from = k == 0 ? std::min(times[k], t - near) : times[k];
+        double const to = k + 2 == times.size() ? std::max(times[k + 1], t + near) : times[k + 1];
+        if (to < t - near || from > t + near) continue;
+        double const gap = times[k + 1] - times[k];
+        rate = std::max(rate, mag((samples.bounds[k + 1] - samples.bounds[k]) / gap) +
+                                  channel_tube::in_gaps(law, {from, to}).front());
+    }
+    return rate;
+}
+
+/// Moves the readings of a late channel to when they tell. What is shown at t belongs to t - delay,
+/// which is rounded, and may be half away from that.
+inline void move_readings(experiment& e, std::size_t channel, rate_variation const& law,
+                          double delay, double half) {
+    using traits = interval_traits<interval>;
+    std::erase_if(e.measurements, [&](measurement const& m) { // of before the begin: tell nothing
+        return m.channel == channel && m.time - delay < e.begin + half;
+    });
+    e.outliers = std::min(e.outliers, e.measurements.size());
+    auto const samples = state_samples::sensed(e, channel).bounded();
+    for (auto& m : e.measurements) {
+        if (m.channel != channel) continue;
+        double const moved = m.time - delay;
+        auto const late = traits::sub(traits::point(m.time), traits::point(moved));
+        double const near = half + mag(traits::sub(late, traits::point(delay)));
+        double const more =
+            near > 0 ? near * steepest_about(samples, law, m.time, near) * (1 + 1e-9) : 0;
+        m.bound = traits::add(m.bound, traits::bounds(-more, more));
+        m.time = moved;
+    }
+}
+
+} // namespace diagnosis_detail
+
+/// @param laws         declared variations of the states' rates, per experiment
+/// @param delay, half  the delays delay - half to delay + half
+[[nodiscard]] inline suspect_problem
+suspect_of(identification_problem const& source, faulty_channel const& f,
+           std::map<std::string, std::vector<rate_variation>> const& laws, double delay,
+           double half) {
+    suspect_problem result{source, {f.state, f.scale, f.drift, f.mixing, laws}};
+    auto& problem = result.problem;
+    diagnosis_detail::correct_state(problem, source, f);
     for (auto& e : problem.experiments) {
         auto const found = laws.find(e.name);
         if (found == laws.end()) continue; // it is not used
-        // x' = (1 + s) y' + d + sum c y_m': what y' varies by.
         auto& law = result.sensor.laws[e.name][f.state];
-        double variation = law.variation;
-        auto off = traits::add(f.offset, traits::mul(f.drift, traits::point(e.begin)));
-        for (auto const& [m, share] : f.mixing) {
-            auto const& other = found->second[m];
-            double const periods = std::ceil(law.period / other.period * (1 - 1e-9));
-            variation += mag(share) * other.variation * std::max(1.0, periods);
-            off = traits::add(off, traits::mul(share, e.initial[m]));
-        }
-        law.variation = std::min(variation / (1 + f.scale.lower()) * (1 + 1e-9), 1e100);
-        bool undefined = false;
-        e.initial[f.state] = traits::div(traits::sub(e.initial[f.state], off),
-                                         traits::add(traits::point(1.0), f.scale), undefined);
-        // Late by delay: what is shown at t belongs to t - delay, which is rounded, and may be half
-        // away from that. Readings of before the begin tell nothing.
-        std::erase_if(e.measurements, [&](measurement const& m) {
-            return m.channel == f.channel && m.time - delay < e.begin + half;
-        });
-        e.outliers = std::min(e.outliers, e.measurements.size());
-        auto const samples = state_samples::sensed(e, f.channel).bounded();
-        auto const& times = samples.times;
-        // The greatest rate within some time of t: in each gap, of which the first and the last one
-        // go on beyond the samples, it is off the secant by no more than it varies by there.
-        auto const steepest = [&](double t, double near) {
-            double rate = times.size() > 1 ? 0 : HUGE_VAL;
-            for (std::size_t k = 0; k + 1 < times.size(); ++k) {
-                double const from = k == 0 ? std::min(times[k], t - near) : times[k];
-                double const to =
-                    k + 2 == times.size() ? std::max(times[k + 1], t + near) : times[k + 1];
-                if (to < t - near || from > t + near) continue;
-                double const gap = times[k + 1] - times[k];
-                rate = std::max(rate, mag((samples.bounds[k + 1] - samples.bounds[k]) / gap) +
-                                          channel_tube::in_gaps(law, {from, to}).front());
-            }
-            return rate;
-        };
-        for (auto& m : e.measurements) {
-            if (m.channel != f.channel) continue;
-            double const moved = m.time - delay;
-            auto const late = traits::sub(traits::point(m.time), traits::point(moved));
-            double const near = half + mag(traits::sub(late, traits::point(delay)));
-            double const more = near > 0 ? near * steepest(m.time, near) * (1 + 1e-9) : 0;
-            m.bound = traits::add(m.bound, traits::bounds(-more, more));
-            m.time = moved;
-        }
+        diagnosis_detail::start_at_shown(e, f, found->second, law);
+        diagnosis_detail::move_readings(e, f.channel, law, delay, half);
     }
     std::erase_if(problem.experiments, [](experiment const& e) { return e.measurements.empty(); });
     return result;

@@ -14,6 +14,56 @@
 
 namespace sivid {
 
+/// Whether a start is left to the import: "propose", the only word that it may be.
+[[nodiscard]] inline bool proposes_start(json_value const& entry) {
+    if (entry.type() != json_value::kind::string) return false;
+    if (entry.string() != "propose")
+        entry.fail(text_of("found ", in_quotes(entry.string())),
+                   "write \"propose\" or a range [lower, upper]");
+    return true;
+}
+
+/// The start of a state as a channel of its name shows it.
+[[nodiscard]] inline mapped_start proposed_start(std::string const& name, json_value const& entry) {
+    mapped_start start;
+    start.name = start.channel = name;
+    start.from = mapped_start::kind::value;
+    start.bounded = false;
+    start.place = entry.place();
+    return start;
+}
+
+[[nodiscard]] inline mapped_start read_start(std::string const& name, json_value const& entry) {
+    using kind = mapped_start::kind;
+    auto start = proposed_start(name, entry);
+    bool const object = entry.type() == json_value::kind::object;
+    if (object && entry.find("range") != nullptr) {
+        entry.allow_only({"range", "unit"});
+        start.from = kind::stated;
+        start.bounded = true;
+        start.range = mapping_entries::range(entry.at("range"));
+        if (auto const* unit = entry.find("unit")) {
+            (void)read_unit(*unit);
+            start.unit = unit->any_string();
+        }
+    } else if (object) {
+        bool const rate = entry.find("rate_of") != nullptr;
+        if (rate) entry.allow_only({"rate_of", "acceleration"});
+        if (!rate) entry.allow_only({"channel", "rate"});
+        start.from = rate ? kind::rate : kind::value;
+        start.channel = entry.at(rate ? "rate_of" : "channel").string();
+        if (auto const* bound = entry.find(rate ? "acceleration" : "rate")) {
+            start.bounded = true;
+            start.range = mapping_entries::symmetric_range(*bound);
+        }
+    } else if (!proposes_start(entry)) {
+        start.from = kind::stated;
+        start.bounded = true;
+        start.range = mapping_entries::range(entry);
+    }
+    return start;
+}
+
 /// "initial": "propose", or for each state a range, {"range": ..., "unit": ...}, "propose",
 /// {"channel": ...} or {"rate_of": ...}.
 /// @param channels  those of the scenario; "propose" alone means a state for each
@@ -22,53 +72,13 @@ namespace sivid {
 read_starts(json_value const& list, std::vector<quantity_mapping> const& channels) {
     using kind = mapped_start::kind;
     std::vector<mapped_start> result;
-    auto const unbounded = [&](std::string const& name, json_value const& entry) {
-        mapped_start start;
-        start.name = start.channel = name;
-        start.from = kind::value;
-        start.bounded = false;
-        start.place = entry.place();
-        return start;
-    };
-    auto const proposes = [](json_value const& entry) {
-        if (entry.type() != json_value::kind::string) return false;
-        if (entry.string() != "propose")
-            entry.fail(text_of("found ", in_quotes(entry.string())),
-                       "write \"propose\" or a range [lower, upper]");
-        return true;
-    };
-    if (proposes(list)) {
-        for (auto const& q : channels) result.push_back(unbounded(q.name, list));
+    if (proposes_start(list)) {
+        for (auto const& q : channels) result.push_back(proposed_start(q.name, list));
         return result;
     }
     for (std::size_t i = 0; i < list.members().size(); ++i) {
         auto const& entry = list.members()[i];
-        auto start = unbounded(mapping_entries::name(entry, list.name_of(i)), entry);
-        bool const object = entry.type() == json_value::kind::object;
-        if (object && entry.find("range") != nullptr) {
-            entry.allow_only({"range", "unit"});
-            start.from = kind::stated;
-            start.bounded = true;
-            start.range = mapping_entries::range(entry.at("range"));
-            if (auto const* unit = entry.find("unit")) {
-                (void)read_unit(*unit);
-                start.unit = unit->any_string();
-            }
-        } else if (object) {
-            bool const rate = entry.find("rate_of") != nullptr;
-            if (rate) entry.allow_only({"rate_of", "acceleration"});
-            if (!rate) entry.allow_only({"channel", "rate"});
-            start.from = rate ? kind::rate : kind::value;
-            start.channel = entry.at(rate ? "rate_of" : "channel").string();
-            if (auto const* bound = entry.find(rate ? "acceleration" : "rate")) {
-                start.bounded = true;
-                start.range = mapping_entries::symmetric_range(*bound);
-            }
-        } else if (!proposes(entry)) {
-            start.from = kind::stated;
-            start.bounded = true;
-            start.range = mapping_entries::range(entry);
-        }
+        auto start = read_start(mapping_entries::name(entry, list.name_of(i)), entry);
         if (start.from != kind::stated &&
             std::none_of(channels.begin(), channels.end(),
                          [&](auto const& q) { return q.name == start.channel; }))

@@ -185,75 +185,88 @@ SIVID_DECL std::vector<legend_entry> candidate_legend(std::vector<candidate_bar>
                       {fitted, {symbol::estimate, "best fit found (estimate)"}}});
 }
 
+namespace detail {
+
+/// What is known of a candidate, in words beside its bar.
+inline std::string candidate_note(candidate_bar const& b) {
+    std::string text{state_words(b.state)};
+    if (says_something(b.proved)) text += ", " + inflation_text(b.proved);
+    if (b.state == cause_verdict::undecided && is_fitted(b.fitted)) {
+        text += ", " + estimate_text(b.fitted) + (says_something(b.proved) ? "" : " (estimate)");
+    }
+    return text;
+}
+
+/// A scale from left to right, over which rows lie.
+struct inflation_axis {
+    double left, right;
+    inflation_scale scale;
+
+    [[nodiscard]] double px(double v) const { return left + (right - left) * scale.share(v); }
+};
+
+/// Up to the proved lower bound, and on to the upper one.
+inline void draw_proved(svg& out, inflation_axis const& axis, candidate_bar const& b, double y) {
+    auto const colour = state_colour(b.state);
+    std::string const tip = b.label + ": " + candidate_note(b);
+    double const low = axis.px(b.proved.lo);
+    out.rect(axis.left, y + 7, low - axis.left, 13, {.fill = colour}, 0, tip);
+    if (std::isfinite(b.proved.hi)) {
+        out.rect(low, y + 7, axis.px(b.proved.hi) - low, 13,
+                 {.fill = out.hatch("#ffffff", colour), .stroke = colour}, 0, tip);
+    } else {
+        // Open to the right: no upper bound.
+        out.path(path_data{}.move(low, y + 7).line(low + 9, y + 13.5).line(low, y + 20).close(),
+                 {.fill = out.hatch("#ffffff", colour), .stroke = colour}, tip);
+    }
+}
+
+inline void draw_fitted(svg& out, inflation_axis const& axis, candidate_bar const& b, double y) {
+    double const x = axis.px(b.fitted);
+    if (!says_something(b.proved)) {
+        out.line(axis.left, y + 13.5, x, y + 13.5,
+                 {.stroke = palette::frame, .width = 1.2, .dash = "2 3"});
+    }
+    draw_estimate(out, x, y + 13.5, b.label + ": " + estimate_text(b.fitted) + ", best fit");
+    if (b.fitted > axis.scale.high()) {
+        out.text(axis.right - 8, y + 18, "\xE2\x96\xB8", {.size = 11, .align = anchor::end});
+    }
+}
+
+inline void draw_candidate(svg& out, inflation_axis const& axis, candidate_bar const& b, double y) {
+    out.text(8, y + 18, state_sign(b.state),
+             {.size = 13, .align = anchor::middle, .fill = state_ink(b.state), .bold = true});
+    out.text(axis.left - 10, y + 18, shorten(b.label, 44),
+             {.size = 12.5, .align = anchor::end, .bold = b.answer});
+    if (says_something(b.proved)) draw_proved(out, axis, b, y);
+    if (is_fitted(b.fitted)) draw_fitted(out, axis, b, y);
+    out.text(axis.right + 12, y + 18, candidate_note(b), {.size = 11.5});
+}
+
+} // namespace detail
+
 SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars) {
     double const width = 1000, top = 24, pitch = 27;
     double const bottom = detail::rows_end(top, pitch, bars.size());
     svg out{width, bottom + 42, "inflation of the candidates"};
-    auto const note = [](candidate_bar const& b) {
-        std::string text{state_words(b.state)};
-        if (says_something(b.proved)) text += ", " + inflation_text(b.proved);
-        if (b.state == cause_verdict::undecided && is_fitted(b.fitted)) {
-            text +=
-                ", " + estimate_text(b.fitted) + (says_something(b.proved) ? "" : " (estimate)");
-        }
-        return text;
-    };
     double label_width = 60, note_width = 90;
     for (candidate_bar const& b : bars) {
         double const bold = b.answer ? 1.12 : 1;
         label_width =
             std::max(label_width, bold * approximate_text_width(shorten(b.label, 44), 12.5));
-        note_width = std::max(note_width, approximate_text_width(note(b), 11.5));
+        note_width = std::max(note_width, approximate_text_width(detail::candidate_note(b), 11.5));
     }
     double const left = std::min(label_width + 34, width * 0.42);
     double const right = std::max(width - note_width - 18, left + 80);
-    detail::inflation_scale const scale(bars);
-    auto const px = [&](double v) { return left + (right - left) * scale.share(v); };
+    detail::inflation_axis const axis{left, right, detail::inflation_scale(bars)};
+    auto const row = [&](std::size_t i) { return top + pitch * static_cast<double>(i); };
     for (std::size_t i = 0; i < bars.size(); ++i) {
-        if (bars[i].answer) {
-            out.rect(0, top + pitch * static_cast<double>(i) + 1, width, pitch - 2,
-                     {.fill = "#eef6fb"}, 3);
-        }
+        if (bars[i].answer) out.rect(0, row(i) + 1, width, pitch - 2, {.fill = "#eef6fb"}, 3);
     }
-    detail::draw_grid(out, scale.ticks(), px, top, bottom);
-    for (std::size_t i = 0; i < bars.size(); ++i) {
-        candidate_bar const& b = bars[i];
-        double const y = top + pitch * static_cast<double>(i);
-        auto const colour = detail::state_colour(b.state);
-        std::string const tip = b.label + ": " + note(b);
-        out.text(8, y + 18, state_sign(b.state),
-                 {.size = 13,
-                  .align = anchor::middle,
-                  .fill = detail::state_ink(b.state),
-                  .bold = true});
-        out.text(left - 10, y + 18, shorten(b.label, 44),
-                 {.size = 12.5, .align = anchor::end, .bold = b.answer});
-        if (says_something(b.proved)) {
-            double const low = px(b.proved.lo);
-            out.rect(left, y + 7, low - left, 13, {.fill = colour}, 0, tip);
-            if (std::isfinite(b.proved.hi)) {
-                out.rect(low, y + 7, px(b.proved.hi) - low, 13,
-                         {.fill = out.hatch("#ffffff", colour), .stroke = colour}, 0, tip);
-            } else {
-                // Open to the right: no upper bound.
-                out.path(
-                    path_data{}.move(low, y + 7).line(low + 9, y + 13.5).line(low, y + 20).close(),
-                    {.fill = out.hatch("#ffffff", colour), .stroke = colour}, tip);
-            }
-        }
-        if (is_fitted(b.fitted)) {
-            if (!says_something(b.proved)) {
-                out.line(left, y + 13.5, px(b.fitted), y + 13.5,
-                         {.stroke = palette::frame, .width = 1.2, .dash = "2 3"});
-            }
-            draw_estimate(out, px(b.fitted), y + 13.5,
-                          b.label + ": " + estimate_text(b.fitted) + ", best fit");
-            if (b.fitted > scale.high()) {
-                out.text(right - 8, y + 18, "\xE2\x96\xB8", {.size = 11, .align = anchor::end});
-            }
-        }
-        out.text(right + 12, y + 18, note(b), {.size = 11.5});
-    }
+    auto const px = [&](double v) { return axis.px(v); };
+    detail::draw_grid(out, axis.scale.ticks(), px, top, bottom);
+    for (std::size_t i = 0; i < bars.size(); ++i)
+        detail::draw_candidate(out, axis, bars[i], row(i));
     out.line(left, top, left, bottom, {.stroke = palette::frame});
     out.line(px(1), top - 5, px(1), bottom,
              {.stroke = palette::black, .width = 1.3, .dash = "4 3"});
@@ -261,7 +274,7 @@ SIVID_DECL svg draw_candidate_chart(std::vector<candidate_bar> const& bars) {
              {.size = 11, .align = px(1) > (left + right) / 2 ? anchor::end : anchor::start});
     out.text((left + right) / 2, bottom + 33,
              std::string{"factor by which all bounds must still grow"} +
-                 (scale.logarithmic() ? " (logarithmic)" : ""),
+                 (axis.scale.logarithmic() ? " (logarithmic)" : ""),
              {.size = 11.5, .align = anchor::middle});
     return out;
 }
@@ -331,6 +344,111 @@ SIVID_DECL heat_map misfit_map(std::vector<channel_series> const& channels, bool
     return out;
 }
 
+namespace detail {
+
+/// Colours of a heat map. Below the threshold linear; above it logarithmic, since a gap may be a
+/// hundred times its bound.
+struct heat_scale {
+    double full;    ///< the threshold
+    double largest; ///< value of all maps that share the scale
+    /// Beyond a thousand times the threshold all is one colour, so that one wild value leaves the
+    /// others told apart.
+    double excess;
+
+    heat_scale(heat_map const& m, heat_map_options const& o)
+        : full(m.threshold > 0 ? m.threshold : 1), largest(largest_value(m)) {
+        largest = std::isfinite(o.largest) ? std::max(largest, o.largest) : largest;
+        excess = std::clamp(largest, 2 * full, 1000 * full);
+    }
+    [[nodiscard]] std::string colour(double v) const {
+        return v <= full
+                   ? blue_ramp.at(v / full * 0.8)
+                   : orange_ramp.at(std::log(std::min(v, excess) / full) / std::log(excess / full));
+    }
+};
+
+/// Where the cells of a heat map lie.
+struct heat_frame {
+    double left, right, top, pitch, bottom;
+    range span; ///< of the times
+
+    [[nodiscard]] double px(double t) const {
+        return left + (right - left) * std::clamp((t - span.lo) / (span.hi - span.lo), 0.0, 1.0);
+    }
+    [[nodiscard]] double row(std::size_t r) const { return top + pitch * static_cast<double>(r); }
+};
+
+/// The cells with their rows' names; those beyond the threshold are crossed.
+inline void draw_cells(svg& out, heat_map const& m, heat_frame const& at, heat_scale const& scale) {
+    path_data crosses;
+    for (std::size_t r = 0; r < m.rows.size(); ++r) {
+        double const y = at.row(r);
+        out.text(at.left - 8, y + 17, shorten(m.rows[r], 24), {.size = 12, .align = anchor::end});
+        for (std::size_t c = 0;
+             r < m.values.size() && c < m.values[r].size() && c + 1 < m.times.size(); ++c) {
+            double const v = m.values[r][c];
+            double const x = at.px(m.times[c]), w = at.px(m.times[c + 1]) - x;
+            if (std::isnan(v) || std::isnan(x) || std::isnan(w)) continue;
+            std::string const fill = scale.colour(v);
+            out.rect(x, y, w + 0.3, at.pitch, {.fill = fill}, 0,
+                     m.times.size() < 120 ? m.rows[r] + ": " + rounded_text(v, rounding::nearest)
+                                          : std::string{});
+            if (v > scale.full && w > 5) {
+                double const mx = x + w / 2, my = y + at.pitch / 2;
+                crosses.move(mx - 2.5, my - 2.5)
+                    .line(mx + 2.5, my + 2.5)
+                    .move(mx - 2.5, my + 2.5)
+                    .line(mx + 2.5, my - 2.5);
+            }
+        }
+    }
+    out.path(crosses, {.stroke = palette::paper, .width = 3, .opacity = 0.75});
+    out.path(crosses, {.stroke = palette::ink, .width = 1.2});
+}
+
+/// Lines between the rows, the frame, and the axis of time below.
+inline void draw_rules(svg& out, heat_map const& m, heat_frame const& at) {
+    auto const [left, right, top, pitch, bottom, span] = at;
+    path_data rules;
+    for (std::size_t r = 0; r + 1 < m.rows.size(); ++r)
+        rules.move(left, at.row(r + 1)).line(right, at.row(r + 1));
+    out.path(rules, {.stroke = palette::paper, .width = 2});
+    out.path(path_data{}.rect(left, top, right - left, bottom - top), {.stroke = palette::frame});
+    for (tick const& t :
+         nice_ticks(span, std::clamp(static_cast<int>((right - left) / 70), 2, 12)).ticks) {
+        out.line(at.px(t.value), bottom, at.px(t.value), bottom + 4, {.stroke = palette::frame});
+        out.text(at.px(t.value), bottom + 16, t.label,
+                 {.size = 11, .align = anchor::middle, .fill = palette::muted_ink});
+    }
+    out.text((left + right) / 2, bottom + 33, "time [" + unit_text(m.time_unit) + "]",
+             {.size = 11.5, .align = anchor::middle});
+}
+
+/// The colour bar: left half up to the threshold, right half beyond.
+inline void draw_colour_bar(svg& out, heat_map const& m, heat_frame const& at,
+                            heat_scale const& scale) {
+    double const left = at.left, bar_y = at.bottom + 50;
+    double const bar_width = std::min(260.0, at.right - left), half = bar_width / 2;
+    for (int i = 0; i < 24; ++i) {
+        double const s = i / 24.0;
+        std::string const low = blue_ramp.at(s * 0.8), high = orange_ramp.at(s);
+        out.rect(left + s * half, bar_y, half / 24 + 0.3, 10, {.fill = low});
+        out.rect(left + half + s * half, bar_y, half / 24 + 0.3, 10, {.fill = high});
+    }
+    auto const mark = [&](double x, double v, anchor align) {
+        out.text(x, bar_y + 23,
+                 (scale.largest > v && v == scale.excess ? "≥ " : "") +
+                     rounded_text(v, rounding::nearest, {.significant = 2, .shift = 0}),
+                 {.size = 10.5, .align = align, .fill = palette::muted_ink});
+    };
+    mark(left, 0, anchor::start);
+    mark(left + half, scale.full, anchor::middle);
+    mark(left + bar_width, scale.excess, anchor::end);
+    out.text(left + bar_width + 12, bar_y + 9, m.quantity, {.size = 11.5});
+}
+
+} // namespace detail
+
 SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
     double const top = 34, pitch = 26;
     double const bottom = detail::rows_end(top, pitch, m.rows.size());
@@ -342,86 +460,14 @@ SIVID_DECL svg draw_heat_map(heat_map const& m, heat_map_options const& o) {
     double const left = std::min(label_width + 12, o.width * 0.4), right = o.width - 14;
     range span;
     for (double const t : m.times) span = hull(span, t);
-    span = axis_range(span);
-    double largest = largest_value(m);
-    double const full = m.threshold > 0 ? m.threshold : 1;
-    largest = std::isfinite(o.largest) ? std::max(largest, o.largest) : largest;
-    // Beyond a thousand times the threshold all is one colour, so that one wild value leaves the
-    // others told apart.
-    double const excess = std::clamp(largest, 2 * full, 1000 * full);
-    // Below the threshold linear; above it logarithmic, since a gap may be a hundred times its
-    // bound.
-    auto const colour = [&](double v) {
-        return v <= full
-                   ? blue_ramp.at(v / full * 0.8)
-                   : orange_ramp.at(std::log(std::min(v, excess) / full) / std::log(excess / full));
-    };
-    auto const px = [&](double t) {
-        return left + (right - left) * std::clamp((t - span.lo) / (span.hi - span.lo), 0.0, 1.0);
-    };
+    detail::heat_frame const at{left, right, top, pitch, bottom, axis_range(span)};
+    detail::heat_scale const scale(m, o);
     out.text(0, 16, o.title, {.size = 13, .bold = true});
     std::string const unknown = out.hatch("#ffffff", palette::grid);
     out.rect(left, top, right - left, bottom - top, {.fill = unknown});
-    path_data crosses;
-    for (std::size_t r = 0; r < m.rows.size(); ++r) {
-        double const y = top + pitch * static_cast<double>(r);
-        out.text(left - 8, y + 17, shorten(m.rows[r], 24), {.size = 12, .align = anchor::end});
-        for (std::size_t c = 0;
-             r < m.values.size() && c < m.values[r].size() && c + 1 < m.times.size(); ++c) {
-            double const v = m.values[r][c];
-            double const x = px(m.times[c]), w = px(m.times[c + 1]) - x;
-            if (std::isnan(v) || std::isnan(x) || std::isnan(w)) continue;
-            std::string const fill = colour(v);
-            out.rect(x, y, w + 0.3, pitch, {.fill = fill}, 0,
-                     m.times.size() < 120 ? m.rows[r] + ": " + rounded_text(v, rounding::nearest)
-                                          : std::string{});
-            if (v > full && w > 5) {
-                double const mx = x + w / 2, my = y + pitch / 2;
-                crosses.move(mx - 2.5, my - 2.5)
-                    .line(mx + 2.5, my + 2.5)
-                    .move(mx - 2.5, my + 2.5)
-                    .line(mx + 2.5, my - 2.5);
-            }
-        }
-    }
-    out.path(crosses, {.stroke = palette::paper, .width = 3, .opacity = 0.75});
-    out.path(crosses, {.stroke = palette::ink, .width = 1.2});
-    path_data rules;
-    for (std::size_t r = 0; r + 1 < m.rows.size(); ++r) {
-        rules.move(left, top + pitch * static_cast<double>(r + 1))
-            .line(right, top + pitch * static_cast<double>(r + 1));
-    }
-    out.path(rules, {.stroke = palette::paper, .width = 2});
-    out.path(path_data{}.rect(left, top, right - left, bottom - top), {.stroke = palette::frame});
-    for (tick const& t :
-         nice_ticks(span, std::clamp(static_cast<int>((right - left) / 70), 2, 12)).ticks) {
-        out.line(px(t.value), bottom, px(t.value), bottom + 4, {.stroke = palette::frame});
-        out.text(px(t.value), bottom + 16, t.label,
-                 {.size = 11, .align = anchor::middle, .fill = palette::muted_ink});
-    }
-    out.text((left + right) / 2, bottom + 33, "time [" + unit_text(m.time_unit) + "]",
-             {.size = 11.5, .align = anchor::middle});
-
-    if (!o.key) return out;
-    // The colour bar: left half up to the threshold, right half beyond.
-    double const bar_y = bottom + 50, bar_width = std::min(260.0, right - left),
-                 half = bar_width / 2;
-    for (int i = 0; i < 24; ++i) {
-        double const s = i / 24.0;
-        std::string const low = blue_ramp.at(s * 0.8), high = orange_ramp.at(s);
-        out.rect(left + s * half, bar_y, half / 24 + 0.3, 10, {.fill = low});
-        out.rect(left + half + s * half, bar_y, half / 24 + 0.3, 10, {.fill = high});
-    }
-    auto const mark = [&](double x, double v, anchor align) {
-        out.text(x, bar_y + 23,
-                 (largest > v && v == excess ? "≥ " : "") +
-                     rounded_text(v, rounding::nearest, {.significant = 2, .shift = 0}),
-                 {.size = 10.5, .align = align, .fill = palette::muted_ink});
-    };
-    mark(left, 0, anchor::start);
-    mark(left + half, full, anchor::middle);
-    mark(left + bar_width, excess, anchor::end);
-    out.text(left + bar_width + 12, bar_y + 9, m.quantity, {.size = 11.5});
+    detail::draw_cells(out, m, at, scale);
+    detail::draw_rules(out, m, at);
+    if (o.key) detail::draw_colour_bar(out, m, at, scale);
     return out;
 }
 

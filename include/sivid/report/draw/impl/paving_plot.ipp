@@ -345,10 +345,8 @@ inline void add_box(path_data& d, axes const& a, plane_box const& b, double leas
     d.rect(x - more_w / 2, y - more_h / 2, w + more_w, h + more_h);
 }
 
-} // namespace detail
-
-SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& o) {
-    svg out{o.width, o.height, o.title.empty() ? s.y_name + " against " + s.x_name : o.title};
+/// The axes of a plot of a plane.
+inline axes plane_axes(plane_series const& s, plane_plot_options const& o) {
     range xs;
     range ys;
     auto const include = [&](plane_box const& b) {
@@ -367,9 +365,24 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
         xs = intersect(xs, {x_core.lo - room, x_core.hi + room});
         ys = intersect(ys, {y_core.lo - room, y_core.hi + room});
     }
-    axes const a{{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
-                 {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
-                 {.width = o.width, .height = o.height, .title = o.title, .equal_aspect = true}};
+    return {{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
+            {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
+            {.width = o.width, .height = o.height, .title = o.title, .equal_aspect = true}};
+}
+
+inline void draw_start(svg& out, axes const& a, point const& start) {
+    out.circle(a.px(start.x), a.py(start.y), 4, {.fill = palette::ink}, "start");
+    double const wide = approximate_text_width("start", 11) + 6;
+    out.rect(a.px(start.x) - wide / 2, a.py(start.y) - 20, wide, 14,
+             {.fill = palette::paper, .opacity = 0.8}, 3);
+    out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
+}
+
+} // namespace detail
+
+SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& o) {
+    svg out{o.width, o.height, o.title.empty() ? s.y_name + " against " + s.x_name : o.title};
+    axes const a = detail::plane_axes(s, o);
     a.open(out);
     constexpr std::size_t most_boxes = 4000;
     path_data boxes;
@@ -399,14 +412,8 @@ SIVID_DECL svg draw_plane_plot(plane_series const& s, plane_plot_options const& 
     }
     out.path(arrows, {.fill = palette::paper, .stroke = palette::truth, .width = 1.2},
              "heading, not validated");
-    if (!s.reference.empty() && is_finite(s.reference.front())) {
-        point const& start = s.reference.front();
-        out.circle(a.px(start.x), a.py(start.y), 4, {.fill = palette::ink}, "start");
-        double const wide = approximate_text_width("start", 11) + 6;
-        out.rect(a.px(start.x) - wide / 2, a.py(start.y) - 20, wide, 14,
-                 {.fill = palette::paper, .opacity = 0.8}, 3);
-        out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
-    }
+    if (!s.reference.empty() && is_finite(s.reference.front()))
+        detail::draw_start(out, a, s.reference.front());
     a.close(out);
     if (boxes.empty() && measured.empty() && line.empty()) a.say(out, "no data");
     return out;

@@ -104,105 +104,137 @@ public:
 
     /// All findings, each handed to `tell` as soon as it is there.
     std::vector<check_finding> operator()(std::function<void(check_finding const&)> const& tell) {
-        std::vector<check_finding> all;
-        auto const add = [&](auto const& work) {
+        findings all{tell, {}};
+        refine_runs();
+        if (by_products()) {
+            rebuilt_ = rebuild_products<Exact>(*problem_, stored_->products->sides);
+            all.add([&] { return check_products(rebuilt_, *stored_->products); });
+            if (!rebuilt_.malformed.empty()) return all.done;
+        }
+        check_statements(all);
+        check_motions(all);
+        if (by_products()) all.add([&] { return check_rows(*problem_, *stored_); });
+        check_boxes(all);
+        if (drawn()) check_product_boxes(all);
+        return all.done;
+    }
+
+private:
+    using outcome = check_finding::outcome;
+
+    /// Findings with the time that each took.
+    struct findings {
+        std::function<void(check_finding const&)> const& tell;
+        std::vector<check_finding> done;
+
+        void add(auto const& work) {
             stopwatch const clock;
-            all.push_back(work());
-            all.back().seconds = clock.spent();
-            if (tell) tell(all.back());
-        };
-        stored_products rebuilt;
-        bool const by_products = stored_->products.has_value();
-        auto& options = options_;
-        // Each of what takes long gets a share of the time that is left.
-        auto const within = [&](double share) { options.seconds = share * limit_.seconds(); };
-        // Finer than the search: what it cut off must be cut off again.
-        auto& fine = options.run;
+            done.push_back(work());
+            done.back().seconds = clock.spent();
+            if (tell) tell(done.back());
+        }
+    };
+
+    [[nodiscard]] bool by_products() const { return stored_->products.has_value(); }
+    /// Whether the boxes are drawn from those of products.
+    [[nodiscard]] bool drawn() const { return by_products() && rebuilt_.unproved.empty(); }
+    /// Each of what takes long gets a share of the time that is left.
+    void spend_at_most(double share) { options_.seconds = share * limit_.seconds(); }
+
+    /// Finer than the search: what it cut off must be cut off again.
+    void refine_runs() {
+        auto& fine = options_.run;
         double const stated = stored_->tolerance > 0 ? stored_->tolerance : fine.tolerance;
         fine.tolerance = std::clamp(0.01 * stated, 1e-11, fine.tolerance);
         fine.relative_tolerance = std::min(fine.relative_tolerance, 1e3 * fine.tolerance);
-        if (by_products) {
-            rebuilt = rebuild_products<Exact>(*problem_, stored_->products->sides);
-            add([&] { return check_products(rebuilt, *stored_->products); });
-            if (!rebuilt.malformed.empty()) return all;
-        }
-        add([&] { return check_files(*stored_); });
-        add([&] { return check_problem(*problem_, *stored_); });
-        add([&] { return check_assumptions(*problem_, *stored_, options_.further_assumptions); });
-        add([&] {
-            return check_stop(*stored_, by_products ? rebuilt.problem.prior : problem_->prior);
+    }
+
+    /// What follows from the files and the problem alone.
+    void check_statements(findings& all) {
+        bool const products = by_products();
+        all.add([&] { return check_files(*stored_); });
+        all.add([&] { return check_problem(*problem_, *stored_); });
+        all.add(
+            [&] { return check_assumptions(*problem_, *stored_, options_.further_assumptions); });
+        all.add([&] {
+            return check_stop(*stored_, products ? rebuilt_.problem.prior : problem_->prior);
         });
-        add([&] {
-            return by_products ? check_verdict_of_products(*problem_, *stored_, limit_)
-                               : check_verdict(*stored_);
+        all.add([&] {
+            return products ? check_verdict_of_products(*problem_, *stored_, limit_)
+                            : check_verdict(*stored_);
         });
-        add([&] {
-            return by_products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt)
-                               : check_hull(*problem_, *stored_);
+        all.add([&] {
+            return products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt_)
+                            : check_hull(*problem_, *stored_);
         });
-        add([&] {
-            return by_products ? check_volumes_of_products(*problem_, *stored_, limit_)
-                               : check_volumes(*problem_, *stored_);
+        all.add([&] {
+            return products ? check_volumes_of_products(*problem_, *stored_, limit_)
+                            : check_volumes(*problem_, *stored_);
         });
-        add([&] {
-            return by_products ? check_combinations_of_products(*stored_)
-                               : check_combinations<Exact>(*problem_, *stored_);
+        all.add([&] {
+            return products ? check_combinations_of_products(*stored_)
+                            : check_combinations<Exact>(*problem_, *stored_);
         });
-        add([&] { return witness(); });
-        add([&] {
+    }
+
+    /// What is said of single motions, of outliers and of what data can tell.
+    void check_motions(findings& all) {
+        all.add([&] { return witness(); });
+        all.add([&] {
             return check_forced<Fast>(*problem_, *stored_, readings_.met, options_.certificate,
                                       0.2 * limit_.seconds());
         });
-        add([&] {
+        all.add([&] {
             auto how = options_.certificate;
             if (options_.all) how.runs_per_claim = static_cast<std::size_t>(-1);
             return check_fewest<Fast>(*problem_, *stored_, how, 0.2 * limit_.seconds(),
                                       options_.all ? 0 : std::max<std::size_t>(options_.sample, 1),
                                       options_.seed + 2);
         });
-        add([&] { return check_identifiability(*problem_, *stored_, limit_); });
-        add([&] {
+        all.add([&] { return check_identifiability(*problem_, *stored_, limit_); });
+        all.add([&] {
             return check_outputs<Exact, Fast>(*problem_, *stored_, readings_, of_points(),
                                               0.2 * limit_.seconds());
         });
-        if (by_products) add([&] { return check_rows(*problem_, *stored_); });
-        bool const drawn = by_products && rebuilt.unproved.empty();
+    }
+
+    /// The boxes of boxes.csv and what they leave out; from the products where these tell it.
+    void check_boxes(findings& all) {
         paving_check<Fast> boxes(*problem_, problem_->choice.unknown, stored_->rows, starts_,
-                                 options, by_products ? exclusion_proof{} : stored_->proof);
-        add([&] { return boxes.covering("cover"); });
+                                 options_, by_products() ? exclusion_proof{} : stored_->proof);
+        all.add([&] { return boxes.covering("cover"); });
         std::optional<drawing_check<Exact>> drawing;
-        if (drawn) drawing.emplace(*problem_, *stored_, rebuilt, 400'000, limit_);
-        add([&] {
+        if (drawn()) drawing.emplace(*problem_, *stored_, rebuilt_, 400'000, limit_);
+        all.add([&] {
             std::string const what = "inside boxes";
-            within(drawn ? 0.25 : 0.5);
-            if (!drawn) return boxes.inside(what);
+            spend_at_most(drawing ? 0.25 : 0.5);
+            if (!drawing) return boxes.inside(what);
             auto found = drawing->inside(what);
             return found.found == outcome::undecided ? boxes.inside(what) : found;
         });
-        add([&] {
+        all.add([&] {
             std::string const what = "excluded boxes";
-            within(drawn ? 0.25 : 1.0);
-            if (!drawn || !boxes.covered()) return boxes.outside(what);
+            spend_at_most(drawing ? 0.25 : 1.0);
+            if (!drawing || !boxes.covered()) return boxes.outside(what);
             auto found = drawing->excluded(what, boxes.gaps());
             return found.found == outcome::undecided ? boxes.outside(what) : found;
         });
-        if (!drawn) return all;
-        paving_check<Fast> products(rebuilt.problem, stored_->products->sides,
-                                    stored_->products->rows, starts_, options, stored_->proof);
-        add([&] { return products.covering("product cover"); });
-        add([&] {
-            within(0.5);
-            return products.inside("inside products");
-        });
-        add([&] {
-            within(1.0);
-            return products.outside("excluded products");
-        });
-        return all;
     }
 
-private:
-    using outcome = check_finding::outcome;
+    /// The same of products.csv.
+    void check_product_boxes(findings& all) {
+        paving_check<Fast> products(rebuilt_.problem, stored_->products->sides,
+                                    stored_->products->rows, starts_, options_, stored_->proof);
+        all.add([&] { return products.covering("product cover"); });
+        all.add([&] {
+            spend_at_most(0.5);
+            return products.inside("inside products");
+        });
+        all.add([&] {
+            spend_at_most(1.0);
+            return products.outside("excluded products");
+        });
+    }
 
     /// How single points are followed.
     [[nodiscard]] enclosure_options of_points() const {
@@ -261,6 +293,7 @@ private:
     stored_identification const* stored_;
     identification_check_options options_; ///< its `seconds` are those of the step at hand
     work_limit limit_;
+    stored_products rebuilt_;   ///< where it has products
     std::vector<box> starts_;   ///< of a verified witness
     witness_readings readings_; ///< of the witness
 };

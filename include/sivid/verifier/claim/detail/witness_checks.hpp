@@ -191,6 +191,61 @@ inline bool hand_out(std::vector<std::size_t>& now, std::size_t e, std::size_t l
     return few;
 }
 
+/// What has to hold where so many outliers are needed as a result says.
+struct fewest_problems {
+    std::vector<identification_problem> impossible; ///< one outlier less than needed
+    std::vector<identification_problem> possible; ///< as many as suffice, where budgets are larger
+    bool complete = true; ///< whether every way to share one less in all is among the impossible
+};
+
+/// @param fault  set where the numbers do not even fit the budgets: nothing is returned then
+inline std::optional<fewest_problems> problems_of_fewest(identification_problem const& problem,
+                                                         stored_identification const& stored,
+                                                         std::string& fault) {
+    auto const wrong = [&fault](std::string words) {
+        fault = std::move(words);
+        return std::nullopt;
+    };
+    std::size_t budgets = 0;
+    for (auto const& e : problem.experiments) budgets += e.outliers;
+    if (stored.fewest->most != budgets) return wrong("not as many as the scenarios' budgets");
+    if (stored.verdict != verdict::consistent)
+        return wrong("the verdict does not say that they suffice");
+    fewest_problems result;
+    std::vector<std::size_t> least; // by scenario
+    std::size_t alone = 0;
+    for (auto const& e : problem.experiments) {
+        auto const own = stored.fewest_alone.find(e.name);
+        if (own == stored.fewest_alone.end() || own->second.most > e.outliers ||
+            e.outliers > e.measurements.size())
+            return wrong("no number, or too large a one, for " + e.name);
+        auto single = problem;
+        single.experiments = {e};
+        if (own->second.most < e.outliers) {
+            single.experiments[0].outliers = own->second.most;
+            result.possible.push_back(single);
+        }
+        alone += least.emplace_back(own->second.least);
+        if (own->second.least == 0) continue;
+        single.experiments[0].outliers = own->second.least - 1;
+        result.impossible.push_back(std::move(single));
+    }
+    if (stored.fewest_alone.size() != problem.experiments.size())
+        return wrong("of a scenario that the data set lacks");
+    std::vector<std::vector<std::size_t>> fewer; // by what each needs alone where there are none
+    result.complete = stored.fewest->least <= alone ||
+                      hand_out(least, 0, stored.fewest->least - 1 - alone, 32, fewer);
+    if (!result.complete) fewer.clear();
+    for (auto const& counts : fewer) {
+        auto& p = result.impossible.emplace_back(problem);
+        for (std::size_t e = 0; e < counts.size(); ++e) {
+            auto& own = p.experiments[e];
+            own.outliers = std::min(counts[e], own.measurements.size());
+        }
+    }
+    return result;
+}
+
 } // namespace io_detail
 
 /// Whether so many outliers are needed as a result says.
@@ -207,48 +262,11 @@ check_fewest(identification_problem const& problem, stored_identification const&
     using outcome = check_finding::outcome;
     std::string const what = "outliers needed";
     if (!stored.fewest) return {what, outcome::nothing, ""};
-    std::size_t budgets = 0;
-    for (auto const& e : problem.experiments) budgets += e.outliers;
-    if (stored.fewest->most != budgets) {
-        return {what, outcome::refuted, "not as many as the scenarios' budgets"};
-    }
-    if (stored.verdict != verdict::consistent) {
-        return {what, outcome::refuted, "the verdict does not say that they suffice"};
-    }
-    std::vector<identification_problem> impossible, possible;
-    std::vector<std::size_t> least; // by scenario
-    std::size_t alone = 0;
-    for (auto const& e : problem.experiments) {
-        auto const own = stored.fewest_alone.find(e.name);
-        if (own == stored.fewest_alone.end() || own->second.most > e.outliers ||
-            e.outliers > e.measurements.size()) {
-            return {what, outcome::refuted, "no number, or too large a one, for " + e.name};
-        }
-        auto single = problem;
-        single.experiments = {e};
-        if (own->second.most < e.outliers) {
-            single.experiments[0].outliers = own->second.most;
-            possible.push_back(single);
-        }
-        alone += least.emplace_back(own->second.least);
-        if (own->second.least == 0) continue;
-        single.experiments[0].outliers = own->second.least - 1;
-        impossible.push_back(std::move(single));
-    }
-    if (stored.fewest_alone.size() != problem.experiments.size()) {
-        return {what, outcome::refuted, "of a scenario that the data set lacks"};
-    }
-    std::vector<std::vector<std::size_t>> fewer; // by what each needs alone where there are none
-    bool const few = stored.fewest->least <= alone ||
-                     io_detail::hand_out(least, 0, stored.fewest->least - 1 - alone, 32, fewer);
-    if (!few) fewer.clear();
-    for (auto const& counts : fewer) {
-        auto& p = impossible.emplace_back(problem);
-        for (std::size_t e = 0; e < counts.size(); ++e) {
-            auto& own = p.experiments[e];
-            own.outliers = std::min(counts[e], own.measurements.size());
-        }
-    }
+    std::string fault;
+    auto const posed = io_detail::problems_of_fewest(problem, stored, fault);
+    if (!posed) return {what, outcome::refuted, fault};
+    auto const& impossible = posed->impossible;
+    auto const& possible = posed->possible;
     auto const found_by_fit = [&](identification_problem const& p) {
         counterexample_options fits;
         fits.seconds = 0.3 * seconds / static_cast<double>(impossible.size() + possible.size());
@@ -282,11 +300,12 @@ check_fewest(identification_problem const& problem, stored_identification const&
     }
     std::string detail =
         std::to_string(proved) + " of " + std::to_string(all) + " regions refuted with one less";
-    if (!few) detail += "; the total is not checked from below: too many ways to share it";
+    if (!posed->complete)
+        detail += "; the total is not checked from below: too many ways to share it";
     return {what,
-            proved < all || !few || !unshown.empty() ? outcome::undecided
-            : sample == 0 || all == 0                ? outcome::verified
-                                                     : outcome::sampled,
+            proved < all || !posed->complete || !unshown.empty() ? outcome::undecided
+            : sample == 0 || all == 0                            ? outcome::verified
+                                                                 : outcome::sampled,
             detail + unshown};
 }
 

@@ -565,17 +565,29 @@ private:
         return best;
     }
 
-    /// Whether no parameter of the part explains the experiments.
-    [[nodiscard]] bool excludes(response_list const& known, box const& part) const {
+    /// The misfits of all measurements over a part, as a program, one block for each experiment.
+    struct misfit_program {
         std::vector<minimax_block> blocks;
-        std::vector<std::vector<double>> scales;
-        std::vector<std::size_t> allowance;
-        std::size_t unknowns = part.size(), allowed = 0;
+        std::vector<std::vector<double>> scales; ///< of the blocks' functions
+        std::vector<std::size_t> allowance;      ///< outliers that an experiment has left
+        std::size_t unknowns = 0, allowed = 0;   ///< in all
+
+        void add(minimax_block block, std::vector<double> scale, std::size_t outliers) {
+            blocks.push_back(std::move(block));
+            scales.push_back(std::move(scale));
+            allowance.push_back(outliers);
+            allowed += outliers;
+        }
+    };
+
+    /// @returns  nothing where an experiment certainly misses more measurements than it may
+    [[nodiscard]] std::optional<misfit_program> program_over(response_list const& known,
+                                                             box const& part) const {
+        misfit_program result;
+        result.unknowns = part.size();
         for (std::size_t e = 0; e < known.size(); ++e) {
             if (!known[e]) { // nothing is known of it
-                blocks.emplace_back();
-                scales.emplace_back();
-                allowance.push_back(0);
+                result.add({}, {}, 0);
                 continue;
             }
             auto const& r = *known[e];
@@ -586,7 +598,7 @@ private:
                 if (side.radius > 0) places[side.variable].unknown = j;
             }
             for (auto const& side : r.unknowns.initial) {
-                if (side.radius > 0) places[side.variable].unknown = unknowns++;
+                if (side.radius > 0) places[side.variable].unknown = result.unknowns++;
             }
             std::size_t missed = 0;
             auto misfits = misfits_of(r, local, places, 1, [&](std::size_t y) {
@@ -602,12 +614,17 @@ private:
                 missed += proved ? 1 : 0;
                 return std::abs(off) + spread > half && !(proved && r.allowed > 0);
             });
-            if (missed > r.allowed) return true;
-            allowance.push_back(r.allowed - missed);
-            allowed += allowance.back();
-            blocks.push_back(std::move(misfits.functions));
-            scales.push_back(std::move(misfits.scale));
+            if (missed > r.allowed) return std::nullopt;
+            result.add(std::move(misfits.functions), std::move(misfits.scale), r.allowed - missed);
         }
+        return result;
+    }
+
+    /// Whether no parameter of the part explains the experiments.
+    [[nodiscard]] bool excludes(response_list const& known, box const& part) const {
+        auto program = program_over(known, part);
+        if (!program) return true;
+        auto& [blocks, scales, allowance, unknowns, allowed] = *program;
         if (allowed >= most_groups) {
             for (std::size_t e = 0; e < known.size(); ++e) {
                 if (allowance[e] > 0) blocks[e] = {};
