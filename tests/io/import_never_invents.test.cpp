@@ -57,9 +57,12 @@ TEST_CASE("a tag that varies is a choice, wherever it stands") {
               middle)) == texts{"1", "1.02"});
     CHECK_THAT(refusal(log_mapping(R"(["t", "a", "_"])"), "0,1,IMU\n5,57,GPS\n10,1,IMU\n"),
                ContainsSubstring("column 3"));
-    // Numbers are tags, too, for whoever says so; unsaid they show where times are equal.
+    // Numbers that take turns are tags, too; others show where times are equal.
     auto const numbers = "1,0,1.00\n2,0,57.2\n1,10,1.02\n2,10,57.3\n";
     CHECK_THAT(refusal(log_mapping(R"(["_", "t", "a"])"), numbers),
+               ContainsSubstring("whole numbers take turns in a column that is not mapped: '1' (2 "
+                                 "lines), '2' (2 lines)"));
+    CHECK_THAT(refusal(log_mapping(R"(["_", "t", "a"])"), "1,0,1.00\n2,0,57.2\n1,10,1.02\n"),
                ContainsSubstring("the channel 'a' has another value in line 1") &&
                    ContainsSubstring("\"lines\" if they are of two kinds"));
     CHECK(values(import_serial(
