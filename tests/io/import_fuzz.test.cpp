@@ -5,6 +5,7 @@
 
 #include "io/damaged_text.hpp"
 #include "io/import_support.hpp"
+#include "support/sweep.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -122,7 +123,7 @@ TEST_CASE("damaged logs and mappings are imported validly or refused") { run(2, 
 TEST_CASE("random bytes are refused or dropped") {
     generator random{3};
     temporary_folder const folder;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < support::swept(70, 200); ++i) {
         std::string bytes;
         auto const length = random() % 3000;
         for (std::size_t k = 0; k < length; ++k)
@@ -160,7 +161,7 @@ TEST_CASE("huge and tiny numbers never give an invalid data set") {
                                               std::string(350, '9'),
                                               "0." + std::string(380, '3')};
     int accepted = 0;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < support::swept(150, 400); ++i) {
         std::string text = "time,pump,level,bound\n";
         for (int k = 0; k < 5; ++k)
             text += std::to_string(k) + "," + numbers[random() % 12] + "," +
@@ -174,7 +175,7 @@ TEST_CASE("huge and tiny numbers never give an invalid data set") {
         } catch (input_error const&) {
         }
     }
-    CHECK(accepted > 10);
+    CHECK(accepted > support::swept(3, 10));
 }
 
 TEST_CASE("many damaged files are imported validly or refused", "[.long]") {

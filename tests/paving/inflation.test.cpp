@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/inflations.hpp"
+#include "support/sweep.hpp"
 
 #include <sivid/approximate/detail/residuals.hpp>
 
@@ -222,7 +223,7 @@ struct late_growth {
 
 TEST_CASE("runs that end early: the inflation is that of a dense grid, and narrowly bounded") {
     draws d(408);
-    for (int trial = 0; trial < 12; ++trial) {
+    for (int trial = 0; trial < support::swept(5, 12); ++trial) {
         late_growth const real(d, trial % 3 == 2 ? 1 : 0);
         double const least = real.least();
         auto const found = bound_inflation(real.problem, nullptr, brief(5));

@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/formulas.hpp"
 #include "support/models.hpp"
+#include "support/sweep.hpp"
 
 #include <array>
 #include <cmath>
@@ -151,11 +152,11 @@ TEST_CASE("large powers follow from half powers, also of what changes its sign")
 TEST_CASE("recurrences of composed formulas") {
     draws d(162);
     int compared = 0;
-    for (int round = 0; round < 1200; ++round) {
+    for (int round = 0; round < support::swept(400, 1200); ++round) {
         auto const f = support::random_formula(d, 2 + d.below(7), d.coin());
         compared += compare(d, f, round % 3 == 0 ? 0.2 : 0.0);
     }
-    CHECK(compared > 3000);
+    CHECK(compared > support::swept(1000, 3000));
 }
 
 TEST_CASE("recurrences of composed formulas, longer", "[.long]") {

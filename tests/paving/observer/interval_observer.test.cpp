@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/inflations.hpp"
 #include "support/problems.hpp"
+#include "support/sweep.hpp"
 
 #include <cmath>
 #include <string>
@@ -112,7 +113,7 @@ TEST_CASE("boxes with the truth are never refuted") {
 }
 
 TEST_CASE("kinks, jumps, held and linear inputs, and a state that is not measured") {
-    for (std::size_t trial = 0; trial < 24; ++trial) {
+    for (std::size_t trial = 0; trial < support::swept(std::size_t{10}, std::size_t{24}); ++trial) {
         draws d(900 + trial);
         auto const kind =
             trial % 2 == 0 ? sivid::interpolation::hold : sivid::interpolation::linear;
@@ -132,7 +133,7 @@ TEST_CASE("kinks, jumps, held and linear inputs, and a state that is not measure
 }
 
 TEST_CASE("inputs that lie within their error bounds refute nothing") {
-    for (std::size_t trial = 0; trial < 24; ++trial) {
+    for (std::size_t trial = 0; trial < support::swept(std::size_t{10}, std::size_t{24}); ++trial) {
         draws d(1200 + trial);
         auto const kind =
             trial % 2 == 0 ? sivid::interpolation::hold : sivid::interpolation::linear;

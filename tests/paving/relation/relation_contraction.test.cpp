@@ -16,7 +16,7 @@ using namespace diagnosis_support;
 
 TEST_CASE("no parameter that explains the data is removed") {
     draws d(710);
-    auto const count = support::swept(std::size_t{12}, std::size_t{400});
+    auto const count = support::swept(std::size_t{5}, std::size_t{400});
     for (auto const& what : all_planted()) {
         auto const m = model_of(what.shape, what.rate);
         for (std::size_t n = 0; n < count; ++n) {

@@ -53,7 +53,7 @@ identification_problem region(double most) {
 
 TEST_CASE("no parameter is removed from priors that are far too wide") {
     draws d(751);
-    auto const count = support::swept(8, 200);
+    auto const count = support::swept(4, 200);
     for (auto const& what : all_balanced()) {
         auto const m = support::model_of(what.system.shape, what.system.rate);
         double left = 0;

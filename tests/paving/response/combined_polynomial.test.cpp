@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/models.hpp"
 #include "support/random.hpp"
+#include "support/sweep.hpp"
 #include "support/taylor_models.hpp"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ combined_polynomial of_two(std::vector<double> const& c) {
 
 TEST_CASE("nowhere in the part does the weighted sum fall below the bound") {
     draws d(81);
-    for (int trial = 0; trial < 80; ++trial) {
+    for (int trial = 0; trial < support::swept(25, 80); ++trial) {
         double const curvature = std::pow(10, -d.uniform(0, 3));
         std::vector<response> const known{random_response(d, 3, curvature, 0.01),
                                           random_response(d, 2, curvature, 0.01)};

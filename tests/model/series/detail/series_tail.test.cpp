@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/formulas.hpp"
+#include "support/sweep.hpp"
 
 #include <sivid/model/series/taylor_arithmetic.hpp>
 
@@ -157,7 +158,7 @@ TEST_CASE("tails far from 0, where functions hardly change and their arguments d
         int compared = 0;
         double sharp = 0;
         support::for_each_use(op, {3, 4, 7, -1, -2}, [&](support::formula const& f) {
-            for (int draw = 0; draw < 400; ++draw) {
+            for (int draw = 0; draw < support::swept(120, 400); ++draw) {
                 auto where = random_given(d, draw % 3 == 0 ? 0.05 : 0);
                 double const fast = d.uniform(0.1, 20); // all of [0, h] stays on one side
                 for (auto& x : where.x) {
@@ -168,7 +169,7 @@ TEST_CASE("tails far from 0, where functions hardly change and their arguments d
                 compared += compare(d, f, where, sharp);
             }
         });
-        CHECK(compared > 500);
+        CHECK(compared > support::swept(150, 500));
         CHECK(sharp > 0.5);
     }
 }
@@ -198,11 +199,11 @@ TEST_CASE("tails of each operation, at every order") {
         double sharp = 0;
         support::for_each_use(op, {3, 4, 7, -1, -2}, [&](support::formula const& f) {
             for (double const radius : {0.0, 0.0, 0.05}) {
-                for (int draw = 0; draw < 25; ++draw)
+                for (int draw = 0; draw < support::swept(8, 25); ++draw)
                     compared += compare(d, f, random_given(d, radius), sharp);
             }
         });
-        CHECK(compared > 100);
+        CHECK(compared > support::swept(30, 100));
         // The bounds are met: an error of a factor 2 would be seen. (A sign has no tail.)
         if (op != operation::sign) CHECK(sharp > 0.5);
     }

@@ -174,10 +174,10 @@ void check_radii() {
 } // namespace
 
 TEST_CASE("Series columns: the radius covers what a sum rounds and cuts off") {
-    check_rounding<1, 0>(1, support::swept(30, 120));
-    check_rounding<2, 1>(2, support::swept(15, 60));
-    check_rounding<3, 2>(3, support::swept(4, 15));
-    check_rounding<2, 4>(4, support::swept(2, 6));
+    check_rounding<1, 0>(1, support::swept(10, 120));
+    check_rounding<2, 1>(2, support::swept(5, 60));
+    check_rounding<3, 2>(3, support::swept(2, 15));
+    check_rounding<2, 4>(4, support::swept(1, 6));
     check_rounding<4, 3>(5, support::swept(1, 2)); // its products are not unrolled
 }
 

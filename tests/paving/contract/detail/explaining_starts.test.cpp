@@ -57,7 +57,7 @@ struct random_experiment : support::random_response<4, 3> {
 TEST_CASE("for every parameter of a proved part the rule's start explains the measurements") {
     draws d(21);
     std::size_t proved = 0, following = 0;
-    auto const trials = support::swept(100U, 400U);
+    auto const trials = support::swept(40U, 400U);
     for (unsigned trial = 0; trial < trials; ++trial) {
         std::size_t const outputs = 3 + d.below(6);
         random_experiment x(d, outputs, d.coin() ? 0.02 : 0.3);

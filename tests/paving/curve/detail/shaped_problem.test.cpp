@@ -16,7 +16,7 @@ using support::draws;
 
 TEST_CASE("no parameter that explains the data is lost by shapes") {
     std::size_t tried = 0, contracted = 0;
-    support::each_planted_curve(support::swept(8U, 200U), [&](auto const& p, draws& d) {
+    support::each_planted_curve(support::swept(4U, 200U), [&](auto const& p, draws& d) {
         auto shaped = shaped_problem::of(p.problem);
         if (!shaped) return;
         ++tried;
@@ -42,7 +42,7 @@ TEST_CASE("no parameter that explains the data is lost by shapes") {
         }
         contracted += relative_volume(shaped->parameters(), p.problem.prior).upper() < 0.5 ? 1 : 0;
     });
-    CHECK(tried >= support::swept(8U, 200U) / 2);
+    CHECK(tried >= support::swept(4U, 200U) / 2);
     CHECK(contracted > tried / 4);
 }
 

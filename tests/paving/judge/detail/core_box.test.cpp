@@ -6,6 +6,7 @@
 #include "support/problems.hpp"
 #include "support/random_response.hpp"
 #include "support/some_start.hpp"
+#include "support/sweep.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -36,7 +37,7 @@ support::planted_problem chain(draws& d, support::planting const& how) {
 TEST_CASE("all members of a core hold by exact arithmetic, outliers included") {
     draws d(31);
     std::size_t proved = 0, grown = 0;
-    for (int trial = 0; trial < 200; ++trial) {
+    for (int trial = 0; trial < support::swept(60, 200); ++trial) {
         std::size_t const outputs = 4 + d.below(6);
         support::random_response<3, 3> x(d, box{between(1, 1)},
                                          box{between(-1, 1), between(3, 3.1), between(0, 4)},
@@ -89,7 +90,7 @@ TEST_CASE("all members of a core hold by exact arithmetic, outliers included") {
         grown += wider ? 1 : 0;
     }
     INFO(proved << " found, " << grown << " of them use up a margin");
-    CHECK(proved > 150);
+    CHECK(proved > support::swept(std::size_t{40}, std::size_t{150}));
     CHECK(grown > proved / 2);
 }
 

@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 
 #include "../../../../examples/hovercraft/model.hpp"
+#include "support/sweep.hpp"
 
 using namespace diagnosis_support;
 
@@ -46,7 +47,7 @@ std::string names_of_broken(identification_problem const& problem) {
 
 TEST_CASE("a model that holds is never refuted, whatever the noise within its bounds") {
     draws d(30);
-    for (int n = 0; n < 240; ++n) {
+    for (int n = 0; n < support::swept(80, 240); ++n) {
         auto const kind = static_cast<noise>(n % 4);
         auto const p = pendulum_truth(d);
         planting how{{0, 1}, kind, d.coin() ? 0.02 : 0.002, {}, 3};

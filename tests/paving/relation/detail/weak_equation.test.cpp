@@ -69,7 +69,7 @@ TEST_CASE("stated equations of a mass matrix contain the truth, seen by angles a
     REQUIRE(m.stated.has_value());
     auto const prior = prior_of_links(0.1);
     draws d(31);
-    auto const count = support::swept(std::size_t{8}, std::size_t{400});
+    auto const count = support::swept(std::size_t{4}, std::size_t{400});
     for (std::size_t n = 0; n < count; ++n) {
         auto const p = d.in(prior);
         auto e = record_of_links(d, m, p, 1.5, d.coin() ? 0.001 : 0.01, static_cast<noise>(n % 4));
