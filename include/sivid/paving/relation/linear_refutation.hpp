@@ -106,7 +106,8 @@ least_under(linear_system const& system, refutation const& y, std::vector<double
 namespace paving_detail {
 
 /// The half-spaces of a program on \f$ z \in [0, 1]^n \f$ and further unknowns, by names: the
-/// inequalities, then the lower and the upper bounds of z.
+/// inequalities, then the lower and the upper bounds of z. Inequalities have the units of their
+/// equations: each is written in multiples of a power of two near its size, as those of z are.
 class box_half_spaces {
 public:
     /// @param relaxed  with one unknown more, by which all bounds are relaxed in their weights
@@ -117,8 +118,13 @@ public:
             for (std::size_t j = 0; j < system.unknowns(); ++j) sum += std::abs(system.row(i)[j]);
             double const w = system.weight(i);
             scale_.push_back(relaxed ? (w > 0 ? 1 / w : 1) : (sum > 0 ? 1 / sum : 0));
+            double const size = relaxed ? sum + w : sum;
+            bool const any = size > 0 && std::isfinite(size);
+            factor_.push_back(any ? std::ldexp(1.0, -std::ilogb(size)) : 1.0);
         }
     }
+    /// By which an inequality is multiplied in the program.
+    [[nodiscard]] double factor(std::size_t i) const { return factor_[i]; }
     [[nodiscard]] std::size_t unknowns() const { return system_->unknowns() + (relaxed_ ? 1 : 0); }
     [[nodiscard]] std::size_t lower_of(std::size_t j) const { return system_->size() + j; }
     [[nodiscard]] std::size_t upper_of(std::size_t j) const {
@@ -129,9 +135,11 @@ public:
         to.name = k;
         to.normal.assign(unknowns(), 0.0);
         if (k < system_->size()) {
-            std::copy(system_->row(k), system_->row(k) + n, to.normal.begin());
-            if (relaxed_) to.normal[n] = -system_->weight(k);
-            to.reach = system_->bound(k);
+            double const f = factor_[k];
+            std::transform(system_->row(k), system_->row(k) + n, to.normal.begin(),
+                           [f](double a) { return f * a; });
+            if (relaxed_) to.normal[n] = -f * system_->weight(k);
+            to.reach = f * system_->bound(k);
         } else {
             bool const lower = k < upper_of(0);
             to.normal[(k - system_->size()) % n] = lower ? -1 : 1;
@@ -166,14 +174,15 @@ public:
 private:
     linear_system const* system_;
     bool relaxed_;
-    std::vector<double> scale_;
+    std::vector<double> scale_, factor_;
 };
 
 [[nodiscard]] inline refutation multipliers_of(dual_simplex const& program,
-                                               linear_system const& system) {
+                                               linear_system const& system,
+                                               box_half_spaces const& half_spaces) {
     refutation result;
     for (auto const& [k, size] : program.combination()) {
-        if (k < system.size()) result.multipliers.emplace_back(k, size);
+        if (k < system.size()) result.multipliers.emplace_back(k, size * half_spaces.factor(k));
     }
     return result;
 }
@@ -199,7 +208,7 @@ private:
     if (!program.start(std::move(downwards), std::move(basis))) return trivial;
     bool const empty =
         program.run(std::cref(half_spaces), most_exchanges) == dual_simplex::outcome::empty;
-    auto const y = paving_detail::multipliers_of(program, system);
+    auto const y = paving_detail::multipliers_of(program, system, half_spaces);
     if (empty) return proved_margin(system, y) > 0 ? HUGE_VAL : trivial;
     auto const least = paving_detail::least_under(system, y, goal);
     return least ? std::max(trivial, least->lower()) : trivial;
@@ -236,7 +245,7 @@ struct approximate_relaxation {
     dual_simplex program;
     if (!program.start(std::move(goal), std::move(basis))) return result;
     auto const how = program.run(std::cref(half_spaces), most_exchanges);
-    result.multipliers = paving_detail::multipliers_of(program, system);
+    result.multipliers = paving_detail::multipliers_of(program, system, half_spaces);
     result.t = how == dual_simplex::outcome::empty ? HUGE_VAL : -program.value();
     result.z.assign(program.point().begin(), program.point().end() - 1);
     for (auto& z : result.z) z = std::clamp(z, 0.0, 1.0);
