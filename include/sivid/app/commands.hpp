@@ -186,17 +186,4 @@ struct fleet_command : command {
 
 } // namespace sivid::app
 
-#ifndef SIVID_COMPILED
-#include <sivid/app/impl/check.ipp>
-#include <sivid/app/impl/decide.ipp>
-#include <sivid/app/impl/describe.ipp>
-#include <sivid/app/impl/design.ipp>
-#include <sivid/app/impl/diagnose.ipp>
-#include <sivid/app/impl/fleet.ipp>
-#include <sivid/app/impl/identify.ipp>
-#include <sivid/app/impl/rank.ipp>
-#include <sivid/app/impl/report.ipp>
-#include <sivid/app/impl/simulate.ipp>
-#endif
-
 #endif
