@@ -24,7 +24,6 @@ namespace sivid::app {
 #include <sivid/app/impl/app.ipp>
 #include <sivid/app/impl/check.ipp>
 #include <sivid/app/impl/decide.ipp>
-#include <sivid/app/impl/describe.ipp>
 #include <sivid/app/impl/design.ipp>
 #include <sivid/app/impl/diagnose.ipp>
 #include <sivid/app/impl/fleet.ipp>

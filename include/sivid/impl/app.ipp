@@ -3,7 +3,6 @@
 #define SIVID_IMPL_APP_IPP
 
 #include <sivid/app/impl/app.ipp>
-#include <sivid/app/impl/describe.ipp>
 #include <sivid/app/impl/enclosing.ipp>
 #include <sivid/app/impl/fleet.ipp>
 #include <sivid/app/impl/generate.ipp>

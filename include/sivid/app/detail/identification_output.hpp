@@ -5,21 +5,27 @@
 #include <sivid/app/commands.hpp>
 #include <sivid/app/console.hpp>
 #include <sivid/app/detail/posed_problem.hpp>
-#include <sivid/app/detail/result_files.hpp>
 #include <sivid/app/program.hpp>
+#include <sivid/executor.hpp>
 #include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/explaining_motion.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/io/identification_json.hpp>
+#include <sivid/io/result/certificates_csv.hpp>
 #include <sivid/io/text/durable_file.hpp>
+#include <sivid/io/text/printable_text.hpp>
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
+#include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
 #include <sivid/work_limit.hpp>
+#ifdef SIVID_HAS_TBB
+#include <sivid/parallel/tbb_executor.hpp>
+#endif
 
 #include <algorithm>
 #include <cstddef>
@@ -30,6 +36,46 @@
 #include <vector>
 
 namespace sivid::app::detail {
+
+/// What was tried before a search, a line each.
+inline void print_tried(std::vector<report::tried_view> const& tried) {
+    for (auto const& r : tried) {
+        std::cout << "  " << r.by << ": " << r.outcome;
+        if (!r.effort.empty()) std::cout << " (" << r.effort << ")";
+        std::cout << "; " << r.why << "\n";
+    }
+}
+
+/// The tables that make an identification a result that others can read (check, predict, verify):
+/// boxes.csv, products.csv and certificates.csv; result.json is for the caller to add last.
+inline void add_result_tables(file_set& files, identification_problem const& problem,
+                              identification const& found) {
+    files.add("boxes.csv", boxes_csv(problem, found));
+    if (found.products) {
+        files.add("products.csv", products_csv(found));
+    } else {
+        files.drop("products.csv"); // of an earlier result
+    }
+    if (found.proof.empty()) {
+        files.drop("certificates.csv");
+    } else {
+        files.add("certificates.csv", certificates_csv(found.proof));
+    }
+}
+
+/// @param threads  0: as many as the machine has; without oneTBB that is one
+/// @throws bad_request where more are asked for than the program can have
+[[nodiscard]] inline executor threads_for(std::size_t threads) {
+    if (threads == 1) return {};
+#ifdef SIVID_HAS_TBB
+    return tbb_executor(threads);
+#else
+    if (threads == 0) return {};
+    throw bad_request("--threads: this program was built without oneTBB; install it "
+                      "(Debian: libtbb-dev), configure and build anew, or leave the "
+                      "option out");
+#endif
+}
 
 /// What a search works on, and what its results say of that.
 struct search_task {

@@ -7,6 +7,7 @@
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/io/text/printable_text.hpp>
 #include <sivid/model/affected_problem.hpp>
 #include <sivid/model/named_effects.hpp>
 
@@ -15,6 +16,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -26,6 +28,15 @@ struct remembering_problem {
     identification_problem base;
     std::vector<effect> effects;
 };
+
+/// The way from one folder to another, if there is one that may stand in a file.
+inline std::string seen_from(std::filesystem::path const& here,
+                             std::filesystem::path const& there) {
+    std::error_code fault;
+    auto const way = std::filesystem::relative(there, here, fault);
+    auto const text = fault ? std::string{} : way.generic_string();
+    return unprintable_in(text).empty() ? text : std::string{};
+}
 
 /// The data set of a folder. @throws input_error
 inline dataset read_data(robot const& r, std::filesystem::path const& folder) {

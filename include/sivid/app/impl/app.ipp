@@ -5,7 +5,6 @@
 #include <sivid/app/app.hpp>
 
 #include <sivid/app/commands.hpp>
-#include <sivid/app/detail/number_range.hpp>
 #include <sivid/app/detail/parameter_ranges.hpp>
 #include <sivid/app/import_files.hpp>
 #include <sivid/app/names.hpp>
@@ -29,6 +28,29 @@
 #include <vector>
 
 namespace sivid::app {
+
+/// Checks that an option is a number from `least` to `most`; unlike CLI11's own range it refuses
+/// nan.
+inline CLI::Validator number_between(double least, double most) {
+    std::ostringstream range;
+    range << least << " to " << most;
+    return {[least, most, words = range.str()](std::string const& text) {
+                double value = 0;
+                bool const fits =
+                    CLI::detail::lexical_cast(text, value) && least <= value && value <= most;
+                return fits ? std::string{} : text + " is not a number from " + words;
+            },
+            range.str(), "number_between"};
+}
+
+/// For the name of a folder that need not be given: an empty one is none.
+inline CLI::Validator folder_name() {
+    return {[](std::string const& text) {
+                return text.empty() ? std::string{"--out is empty: give a folder for the results"}
+                                    : std::string{};
+            },
+            "", "folder_name"};
+}
 
 namespace detail {
 

@@ -7,7 +7,6 @@
 #include <sivid/app/console.hpp>
 #include <sivid/app/detail/identification_output.hpp>
 #include <sivid/app/detail/posed_problem.hpp>
-#include <sivid/app/detail/threads.hpp>
 #include <sivid/app/program.hpp>
 #include <sivid/app/ranks.hpp>
 #ifdef SIVID_HAS_MPI
