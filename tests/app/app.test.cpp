@@ -197,7 +197,7 @@ TEST_CASE("a table is imported, and a log that is none is refused whole") {
     s.folder().write("mapping.json", R"({ "format": "sivid-mapping-1", "id": "tea", "model": "cup",
         "parameters": { "k": { "prior": [0.2, 1], "unit": "1/s" } }, "max_outlier_fraction": 0,
         "scenarios": [ { "name": "tea", "role": "fit", "file": "log.csv",
-          "time": { "column": "t", "unit": "s" }, "interpolation": "hold",
+          "time": { "column": "t", "unit": "s", "offset": 0 }, "interpolation": "hold",
           "inputs": { "h": { "column": "h", "unit": "K/s" } },
           "channels": { "T": { "column": "T", "unit": "K", "error": 2 } },
           "initial": { "T": [59, 61] } } ] })");

@@ -28,7 +28,6 @@ TEST_CASE("from a robot's log to gains that are proved for all that it leaves", 
     CHECK_THAT(found.out, ContainsSubstring("dry_friction"));
     auto const result = out + "/model";
     REQUIRE(fs::exists(result + "/result.json"));
-    CHECK(run({"check", result, "--sample", "4", "--budget", "30"}).code != 5);
     CHECK(run({"report", result, "--out", (folder.path() / "page").string()}).code == 0);
     folder.write("push.json",
                  R"({ "format": "sivid-scenario-1", "name": "push", "duration": 0.5,
