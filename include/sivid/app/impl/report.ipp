@@ -6,6 +6,7 @@
 
 #include <sivid/app/console.hpp>
 #include <sivid/app/detail/posed_problem.hpp>
+#include <sivid/app/names.hpp>
 #include <sivid/app/program.hpp>
 #include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/diagnosis_reader.hpp>
@@ -24,6 +25,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -42,19 +44,35 @@ inline void require_data_of(std::filesystem::path const& folder, std::string con
                           "give the right one by --dataset"};
 }
 
+/// The values of these names, in their order; fewer where one is not there.
+template <class List>
+[[nodiscard]] std::vector<double> values_of(std::map<std::string, double> const& values,
+                                            List const& names) {
+    std::vector<double> result;
+    for (auto const& name : names) {
+        auto const found = values.find(name);
+        if (found != values.end()) result.push_back(found->second);
+    }
+    return result;
+}
+
 /// What a stored result says of a witness, in the order of the problem.
 inline std::optional<verified_witness> witness_of(stored_identification const& stored,
                                                   identification_problem const& problem) {
     if (!stored.witness) return std::nullopt;
+    auto const& names = problem.choice.unknown;
     verified_witness w;
-    for (auto const& name : problem.choice.unknown)
-        w.parameters.push_back(stored.witness->parameters.at(name));
+    w.parameters = values_of(stored.witness->parameters, names);
+    bool whole = w.parameters.size() == names.size();
     for (auto const& e : problem.experiments) {
-        auto& start = w.starts.emplace_back();
-        for (auto const& s : problem.model.about.states)
-            start.push_back(stored.witness->initial.at(e.name).at(s.name));
+        auto const start = stored.witness->initial.find(e.name);
+        auto const states = names_in(problem.model.about.states);
+        w.starts.push_back(start == stored.witness->initial.end()
+                               ? std::vector<double>{}
+                               : values_of(start->second, states));
+        whole = whole && w.starts.back().size() == states.size();
     }
-    return w;
+    return whole ? std::optional{std::move(w)} : std::nullopt;
 }
 
 /// The measurements that a stored result calls outliers.
@@ -102,7 +120,10 @@ inline void report_identification(robot const& r, report_command const& c,
     require_data_of(folder, stored.source_digest);
     auto problem = posed(r, data, stored.effects);
     require_same_problem(problem, stored, c.result / "result.json");
-    for (auto& e : problem.experiments) e.outliers = stored.budget.at(e.name);
+    for (auto& e : problem.experiments) {
+        if (auto const own = stored.budget.find(e.name); own != stored.budget.end())
+            e.outliers = own->second;
+    }
     auto const found = recalled(stored, problem);
     work_limit const limit(20, wanted);
     auto const motion = find_explaining_motion(problem, found, 240, limit);
