@@ -24,7 +24,7 @@ TEST_CASE("from a robot's log to gains that are proved for all that it leaves", 
     auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
     auto const mapping = std::string{SIVID_SOURCE_DIR} + "/examples/own_robot/mapping.json";
     REQUIRE(run({"import", mapping, "--out", data}).code == 0);
-    auto const found = run({"diagnose", data, "--out", out, "--budget", "10", "--quiet"});
+    auto const found = run({"diagnose", data, "--out", out, "--budget", "20", "--quiet"});
     CHECK_THAT(found.out, ContainsSubstring("dry_friction"));
     auto const result = out + "/model";
     REQUIRE(fs::exists(result + "/result.json"));
