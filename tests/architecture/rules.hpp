@@ -149,6 +149,8 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         "approximate_fit.hpp",    "detail/residuals.hpp",      "candidate/candidate.hpp",
         "candidate/screened.hpp", "place/estimated_place.hpp", "place/place.hpp"};
     static std::map<std::string_view, std::set<std::string_view>> const starters{
+        {"sivid/app/detail/decision_task.hpp", {"fit/fit.hpp", "simulate/simulate.hpp"}},
+        {"sivid/app/impl/simulate.ipp", {"simulate/simulate.hpp"}},
         {"sivid/paving/judge/detail/fitted_witness.hpp", {"fit/fit.hpp"}},
         {"sivid/paving/online/detail/online_witness.hpp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
