@@ -33,7 +33,7 @@ struct command {
     std::filesystem::path out;
     bool quiet = false;
     std::string command_line;   ///< for the report's footer
-    ranks const* all = nullptr; ///< that share the work, of those commands that can
+    ranks const* job = nullptr; ///< that share the work, of those commands that can
 };
 
 /// `import`: recorded files of any form into a data set; the work is that of `import_files`.

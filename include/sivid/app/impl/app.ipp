@@ -211,7 +211,7 @@ private:
         s->callback([this, &c, work = std::move(work)] {
             action_ = [this, &c, work] {
                 c.command_line = line_;
-                c.all = all_;
+                c.job = all_;
                 return work();
             };
         });

@@ -251,7 +251,7 @@ public:
     diagnosing(robot const& r, diagnose_command const& c)
         : of_{r},
           command_{c},
-          progress_(c.quiet || (c.all != nullptr && c.all->helps())),
+          progress_(c.quiet || (c.job != nullptr && c.job->helps())),
           data_{read_data(r, c.dataset)},
           problem_{problem_from_dataset(data_, r.model)},
           effects_{chosen_effects(r.effects, data_)},
@@ -259,7 +259,7 @@ public:
           options_{r.effort} {}
 
     [[nodiscard]] int operator()() {
-        bool const helps = command_.all != nullptr && command_.all->helps();
+        bool const helps = command_.job != nullptr && command_.job->helps();
         if (!helps) prepare_folder(command_.out);
         options_.seconds = of_.diagnosis_share * left();
         apply(command_.how, options_.test);
@@ -268,7 +268,7 @@ public:
         options_.menu.insert(options_.menu.end(), of_.manoeuvres.begin(), of_.manoeuvres.end());
         watch(options_, progress_);
         watch_interrupts();
-        if (command_.all != nullptr) command_.all->watch_interrupts();
+        if (command_.job != nullptr) command_.job->watch_interrupts();
         auto found = diagnosed();
         if (!found) return done;
         source_ = {seen_from(command_.out, command_.dataset), dataset_digest(command_.dataset),
@@ -298,10 +298,10 @@ private:
     /// By all ranks; nothing on those that help.
     [[nodiscard]] std::optional<diagnosis_run> diagnosed() const {
 #ifdef SIVID_HAS_MPI
-        if (command_.all != nullptr && command_.all->several()) {
+        if (command_.job != nullptr && command_.job->several()) {
             auto const digest = dataset_digest(command_.dataset);
-            auto& others = command_.all->others();
-            if (!command_.all->helps())
+            auto& others = command_.job->others();
+            if (!command_.job->helps())
                 return cluster::diagnose(others, problem_, effects_, options_, digest);
             cluster::help_diagnose(others, problem_, effects_, digest);
             return std::nullopt;

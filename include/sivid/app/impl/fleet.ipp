@@ -382,13 +382,13 @@ inline std::vector<std::size_t> open_tasks(std::vector<fleet_task> const& list,
 
 SIVID_DECL int run_fleet(fleet_command const& c) {
     auto const list = detail::fleet_tasks(c.folders, c.out, c.words, c.options);
-    [[maybe_unused]] bool const several = c.all != nullptr && c.all->several(); // ranks
-    if (c.all != nullptr) c.all->watch_interrupts();
+    [[maybe_unused]] bool const several = c.job != nullptr && c.job->several(); // ranks
+    if (c.job != nullptr) c.job->watch_interrupts();
     auto const digest = detail::digest_of(list);
     auto const who = cluster::identity_of_program();
 #ifdef SIVID_HAS_MPI
-    if (several && c.all->helps()) {
-        detail::work_on(list, digest, c.all->others(), who);
+    if (several && c.job->helps()) {
+        detail::work_on(list, digest, c.job->others(), who);
         return done;
     }
 #endif
@@ -400,7 +400,7 @@ SIVID_DECL int run_fleet(fleet_command const& c) {
     cluster::transport* others = inside.of_first.get();
 #ifdef SIVID_HAS_MPI
     std::optional<cluster::joined_transport> joined;
-    if (several) others = &joined.emplace(*inside.of_first, c.all->others());
+    if (several) others = &joined.emplace(*inside.of_first, c.job->others());
 #endif
     cluster::worker_pool helpers(*others, who);
     std::vector<std::thread> threads;

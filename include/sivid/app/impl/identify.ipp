@@ -105,8 +105,8 @@ inline identification nothing_known(identification_problem const& problem) {
     return result;
 }
 
-inline bool several(command const& c) { return c.all != nullptr && c.all->several(); }
-inline bool helps(command const& c) { return c.all != nullptr && c.all->helps(); }
+inline bool several(command const& c) { return c.job != nullptr && c.job->several(); }
+inline bool helps(command const& c) { return c.job != nullptr && c.job->helps(); }
 
 /// By all ranks. @param shared  receives what sharing took, for people
 inline identification identified(identify_command const& c, identification_problem const& problem,
@@ -116,8 +116,8 @@ inline identification identified(identify_command const& c, identification_probl
 #ifdef SIVID_HAS_MPI
     if (several(c)) {
         cluster::traffic spent;
-        auto found = cluster::identify(c.all->others(), problem, options, digest, &spent);
-        shared = "  " + std::to_string(c.all->size()) +
+        auto found = cluster::identify(c.job->others(), problem, options, digest, &spent);
+        shared = "  " + std::to_string(c.job->size()) +
                  " ranks: " + std::to_string(spent.requests) + " requests, " +
                  std::to_string(spent.messages) + " messages, " +
                  text_of("%.3g MB, ",
@@ -135,7 +135,7 @@ inline int help([[maybe_unused]] identify_command const& c,
                 [[maybe_unused]] identify_options const& options,
                 [[maybe_unused]] std::string const& digest) {
 #ifdef SIVID_HAS_MPI
-    cluster::help_identify(c.all->others(), problem, options, digest);
+    cluster::help_identify(c.job->others(), problem, options, digest);
 #endif
     return done;
 }
@@ -178,8 +178,8 @@ public:
     [[nodiscard]] int operator()() {
         if (!helps(command_)) prepare_folder(command_.out);
         // From here on the first Ctrl-C ends whatever is going on, and what is proved is written.
-        if (command_.all != nullptr) {
-            command_.all->watch_interrupts();
+        if (command_.job != nullptr) {
+            command_.job->watch_interrupts();
         } else {
             watch_interrupts();
         }
