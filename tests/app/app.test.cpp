@@ -91,6 +91,7 @@ TEST_CASE("from a scenario to a result, checked, shown anew and used") {
     }
     CHECK(json_of(fs::path{out} / "result.json")["verdict"] == "consistent");
     CHECK(run({"check", out, "--all", "--quiet"}).code == 0);
+    CHECK(run({"check", out, "--sample", "0", "--quiet"}).code == 3); // nothing is looked at
 
     SECTION("the page of a result is made anew, beside it or elsewhere") {
         auto const again = run({"report", out, "--out", s.at("page"), "--quiet"});
