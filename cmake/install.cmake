@@ -64,7 +64,7 @@ foreach(component IN LISTS sivid_components)
         sivid_install_pkgconfig(parallel "Threads for sivid, with oneTBB" "${of_this}, tbb")
     elseif(component STREQUAL "cluster")
         sivid_install_pkgconfig(cluster "Ranks of MPI for sivid (needs Boost.MPI, too)" "sivid-io = ${PROJECT_VERSION}")
-    endif()
+    endif()   # sivid::app is compiled: for CMake alone
 
     set(file_set "")
     if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.23)
@@ -90,6 +90,7 @@ sivid_write_version_file("${PROJECT_BINARY_DIR}/sividConfigVersion.cmake" "${PRO
 install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/sividConfigVersion.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/find_mpi.cmake" "${CMAKE_CURRENT_LIST_DIR}/find_matio.cmake"
+        "${CMAKE_CURRENT_LIST_DIR}/app.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/compiled.cmake" DESTINATION "${sivid_package_dir}" RENAME sivid_compiled.cmake
         COMPONENT sivid_headers)

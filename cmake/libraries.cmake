@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The header-only targets: sivid::sivid (core), and beside it sivid::io, sivid::verifier, sivid::importing, sivid::report,
-# sivid::matlab, sivid::parallel, sivid::cluster.
+# sivid::matlab, sivid::parallel, sivid::cluster, and sivid::app_headers, which cmake/app.cmake makes sivid::app of.
 
 if(POLICY CMP0167)
     cmake_policy(SET CMP0167 NEW)   # BoostConfig.cmake of Boost itself
@@ -78,5 +78,15 @@ if(EXISTS "${sivid_include_dir}/sivid/cluster" AND TARGET sivid::io)
         target_compile_definitions(sivid_cluster INTERFACE SIVID_HAS_MPI=1)
     else()
         message(STATUS "sivid: MPI or Boost.MPI not found, sivid::cluster left out")
+    endif()
+endif()
+
+if(TARGET sivid::report)
+    find_package(CLI11 QUIET)
+    if(CLI11_FOUND)
+        # Of cluster those headers that need no MPI: threads of a fleet share its work by them.
+        sivid_add_library(app_headers FOLDERS app cluster LINK sivid_report sivid_verifier sivid_importing CLI11::CLI11)
+    else()
+        message(STATUS "sivid: CLI11 not found, sivid::app left out")
     endif()
 endif()

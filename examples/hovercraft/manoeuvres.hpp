@@ -12,21 +12,7 @@
 /// What the craft can be told to do next, so that rival explanations part.
 namespace hovercraft_example {
 
-/// The scenarios of a campaign, made once more.
-inline std::vector<sivid::manoeuvre> recorded_manoeuvres(sivid::identification_problem const& p) {
-    std::vector<sivid::manoeuvre> result;
-    for (auto const& e : p.experiments) {
-        double last = e.begin;
-        for (auto const& m : e.measurements) last = std::max(last, m.time);
-        result.push_back(
-            {"repeat " + e.name, last, sivid::mid(e.initial), {}, [inputs = e.inputs](auto const&) {
-                 return inputs;
-             }});
-    }
-    return result;
-}
-
-/// New ones, their settings within what rotor and rudder can do: a step of the rudder, a weaving
+/// Their settings within what rotor and rudder can do: a step of the rudder, a weaving
 /// course, and a rotor that is switched on and off while the rudder turns.
 inline std::vector<sivid::manoeuvre> new_manoeuvres() {
     using sivid::interpolation;

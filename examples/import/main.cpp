@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // sivid-import MAPPING.json --out DIR: recorded files of any form into a data set.
-#include "console/program.hpp"
-
-#include <sivid/importing/import_writer.hpp>
-#ifdef SIVID_HAS_MATIO
-#include <sivid/importing/matlab_reader.hpp>
-#endif
+#include <sivid/app/import_files.hpp>
 
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
-#include <iostream>
 
 namespace {
 
@@ -24,21 +18,13 @@ int parse_and_run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& e) {
-        return app.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
+        return app.exit(e) == 0 ? 0 : static_cast<int>(sivid::app::bad_input);
     }
-    if (out.empty()) throw sivid::output_error("--out is empty: give a folder for the data set");
-    sivid::import_tools tools;
-#ifdef SIVID_HAS_MATIO
-    tools.read_matlab = sivid::read_matlab;
-#endif
-    auto const imported = sivid::import_dataset(sivid::read_import_mapping(mapping), tools);
-    sivid::write_import(imported, out);
-    if (!quiet) std::cout << imported.protocol.text();
-    return console::done;
+    return sivid::app::import_files(mapping, out, quiet);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    return console::guarded("sivid-import", [&] { return parse_and_run(argc, argv); });
+    return sivid::app::guarded("sivid-import", [&] { return parse_and_run(argc, argv); });
 }

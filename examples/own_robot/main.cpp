@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// own_robot FOLDER --out DIR: a whole program to copy. Model and effects are yours. FOLDER is a
-// data set, such as `sivid-import` writes.
-#include "console/robot_program.hpp"
-
+// A whole program to copy: model and effects are yours, the commands come with sivid::app.
+#include <sivid/app/app.hpp>
 #include <sivid/model/effects.hpp>
 
 #include <vector>
@@ -55,6 +53,7 @@ std::vector<sivid::effect> catalogue() {
 } // namespace
 
 int main(int argc, char** argv) {
-    return console::robot_program("own_robot", "What a model of a geared motor leaves out",
-                                  geared_motor{}, catalogue(), argc, argv);
+    auto const robot = sivid::app::robot_of(
+        "own_robot", "What a model of a geared motor leaves out", geared_motor{}, catalogue());
+    return sivid::app::run(robot, argc, argv);
 }

@@ -246,4 +246,5 @@ TEST_CASE("packages are kept to the floors that may use them") {
     CHECK(package_allowed("boost/mpi/communicator.hpp", "cluster", "mpi_world.hpp"));
     CHECK_FALSE(package_allowed("boost/mpi/communicator.hpp", "parallel", "threads.hpp"));
     CHECK_FALSE(package_allowed("CLI/CLI.hpp", "io", "json.hpp"));
+    CHECK(package_allowed("CLI/CLI.hpp", "app", "app.ipp"));
 }

@@ -23,10 +23,11 @@ namespace architecture {
 
 namespace fs = std::filesystem;
 
-inline constexpr std::array<std::string_view, 15> floors{
+inline constexpr std::array<std::string_view, 16> floors{
     "number",    "space",     "measurement", "model",     "approximate",
     "enclosure", "paving",    "decision",    "diagnosis", "io",
-    "verifier",  "importing", "report",      "parallel",  "cluster"};
+    "verifier",  "importing", "report",      "parallel",  "cluster",
+    "app"};
 inline constexpr std::size_t core_floors = 9;
 /// Headers outside of floors that each floor may include.
 inline constexpr std::array<std::string_view, 4> common{
@@ -101,16 +102,18 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     if (one_of({"Eigen/"})) // decompositions cost seconds, and stand behind one header
         return name == "Eigen/Core" || file == "dense.ipp";
     if (one_of({"sivid/", "boost/"})) return true;
+    if (one_of({"CLI/"})) return floor == "app";
     if (one_of({"nlohmann/"})) return floor == "io" || floor == "report";
     if (one_of({"mpi.h"})) return floor == "cluster";
     if (one_of({"matio.h"})) return file == "matlab_reader.hpp";
     if (one_of({"zlib.h"})) return file == "whole_level5.hpp";
     if (one_of({"tbb/", "oneapi/"})) return floor == "parallel";
     if (name.find('/') != std::string_view::npos)
-        return one_of({"sys/"}) && (floor == "io" || floor == "parallel");
+        return one_of({"sys/"}) && (floor == "io" || floor == "parallel" || floor == "app");
     if (name.find('.') == std::string_view::npos) return true; // the standard library
     if (one_of({"io.h", "process.h"})) return floor == "io";   // of Windows
-    if (one_of({"unistd.h", "fcntl.h"})) return floor == "io" || floor == "parallel";
+    if (one_of({"unistd.h", "fcntl.h"}))
+        return floor == "io" || floor == "parallel" || floor == "app";
     static std::set<std::string_view> const processor{"immintrin.h", "emmintrin.h", "xmmintrin.h",
                                                       "arm_neon.h"};
     return processor.count(name) > 0;
@@ -146,6 +149,8 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         "approximate_fit.hpp",    "detail/residuals.hpp",      "candidate/candidate.hpp",
         "candidate/screened.hpp", "place/estimated_place.hpp", "place/place.hpp"};
     static std::map<std::string_view, std::set<std::string_view>> const starters{
+        {"sivid/app/detail/decision_task.hpp", {"fit/fit.hpp", "simulate/simulate.hpp"}},
+        {"sivid/app/impl/simulate.ipp", {"simulate/simulate.hpp"}},
         {"sivid/paving/judge/detail/fitted_witness.hpp", {"fit/fit.hpp"}},
         {"sivid/paving/online/detail/online_witness.hpp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
@@ -342,7 +347,7 @@ inline std::vector<finding> check(fs::path const& tree) {
         for (auto const& line : lines) {
             for (std::string_view word :
                  {"std::cout", "std::cerr", "std::clog", "printf(", "std::exit", "std::abort"})
-                if (line.find(word) != std::string::npos &&
+                if (floor != "app" && line.find(word) != std::string::npos &&
                     line.find(std::string{"n"} + "printf(") == std::string::npos)
                     report("silence", std::string{"uses "}.append(word));
             if (auto const word = compiler_word(line, name); !word.empty())

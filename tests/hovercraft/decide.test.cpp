@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What the bundled set h3 says of the report's scenarios: the tubes hold 100000 simulations, and
 // its requirements are decided.
-#include "commands.hpp"
-#include "generate.hpp"
-#include "scenario.hpp"
+#include "craft.hpp"
+#include "model.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
+#include <sivid/app/generate.hpp>
 #include <sivid/approximate/simulate/simulate.hpp>
 #include <sivid/decision/prediction.hpp>
 #include <sivid/io/dataset.hpp>
@@ -31,10 +31,17 @@
 
 #include <Eigen/Dense>
 
-using namespace hovercraft_example;
+using sivid::app::generate;
+using sivid::app::generate_options;
+
 using answer = sivid::requirement_answer;
 
 namespace {
+
+sivid::app::robot const& craft() {
+    static auto const once = hovercraft_example::craft();
+    return once;
+}
 
 /// An identification, as its files say it.
 struct identified {
@@ -57,7 +64,7 @@ struct identified {
     predicted(std::string const& scenario, sivid::recorded_model const& with,
               std::vector<sivid::node_id> const& margins,
               std::map<std::string, sivid::interval> const& set = {}) const {
-        auto const s = find_scenarios(scenario, sivid::names_of(model.about)).front();
+        auto const s = sivid::app::find_scenario(craft(), scenario);
         sivid::prediction_request r;
         r.end = s.duration;
         r.initial = sivid::box(s.initial.size());
@@ -70,7 +77,7 @@ struct identified {
     verified(std::string const& scenario, std::string const& text,
              std::map<std::string, sivid::interval> const& set = {}) const {
         auto with = model;
-        double const end = find_scenarios(scenario, sivid::names_of(model.about)).front().duration;
+        double const end = sivid::app::find_scenario(craft(), scenario).duration;
         auto const what = sivid::parse_requirement(text, with, end);
         auto const p = predicted(scenario, with, what.margins, set);
         return sivid::verify(p->problem, what, p->feasible);
@@ -89,9 +96,8 @@ identified const& nine() {
     auto const number = [](char const* text) { return *sivid::exact_decimal::parse(text); };
     static identified const once = [&] {
         auto const model = sivid::record_model(hovercraft{});
-        auto const names = sivid::names_of(model.about);
-        auto scenarios = find_scenarios("all", names);
-        scenarios.push_back(find_scenarios("S4", names).front());
+        auto scenarios = sivid::app::find_scenarios(craft(), "all");
+        scenarios.push_back(sivid::app::find_scenario(craft(), "S4"));
         generate_options o;
         for (auto const* bound : {"0.02", "0.02", "0.05", "0.02", "0.02", "0.03"})
             o.absolute.push_back(number(bound));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "generate.hpp"
+#include "craft.hpp"
 #include "model.hpp"
 
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/app/generate.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_writer.hpp>
@@ -12,7 +13,7 @@
 #include <fstream>
 #include <iterator>
 
-using namespace hovercraft_example;
+using namespace sivid::app;
 using sivid::exact_decimal;
 
 namespace {
@@ -39,7 +40,7 @@ struct fixture {
     sivid::recorded_model model = sivid::record_model(hovercraft{});
     sivid::model_names names = sivid::names_of(model.about);
     generated make(std::string const& scenario, generate_options const& o) const {
-        return generate(model, find_scenarios(scenario, names), o);
+        return generate(model, find_scenarios(hovercraft_example::craft(), scenario), o);
     }
 };
 

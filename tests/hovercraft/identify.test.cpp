@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Round trips: generated data are identified, the planted truth is never excluded.
-#include "generate.hpp"
+#include "craft.hpp"
 #include "model.hpp"
 
 #include "support/catch.hpp"
 
+#include <sivid/app/generate.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/paving/identify.hpp>
 
 #include <filesystem>
 
-using namespace hovercraft_example;
+using namespace sivid::app;
 using sivid::exact_decimal;
 using sivid::verdict;
 
@@ -35,7 +36,7 @@ struct campaign {
             options.absolute.push_back(dec(e));
     }
     [[nodiscard]] generated make(std::string const& scenario) const {
-        return generate(model, find_scenarios(scenario, names), options);
+        return generate(model, find_scenarios(hovercraft_example::craft(), scenario), options);
     }
     [[nodiscard]] sivid::identification run(generated const& g, algorithm how, double seconds,
                                             std::size_t q, std::size_t boxes = 100000) const {

@@ -79,7 +79,7 @@ TEST_CASE("identify writes a report, a result and two tables, and says 0 when co
 TEST_CASE("measurement by measurement, each update is printed, and the result is checked as any") {
     temporary_folder const folder;
     auto const out = (folder.path() / "out").string();
-    auto const r = run({"identify", h3, "--out", out, "--online", "--quiet"});
+    auto const r = run({"online", h3, "--out", out, "--quiet"});
     CHECK(r.code == 0);
     CHECK_THAT(r.out, ContainsSubstring("t = 0.1 s, 6 samples") &&
                           ContainsSubstring("180 samples") &&
@@ -89,9 +89,8 @@ TEST_CASE("measurement by measurement, each update is printed, and the result is
     CHECK(run({"check", out, "--sample", "4"}).code == 3); // a sample proves nothing of the rest
     CHECK(run({"check", out, "--all", "--budget", "300"}).code == 0);
     for (auto const& other : {"--compare", "--algorithm=report-1", "--outliers=auto"}) {
-        auto const refused = run({"identify", h3, "--out", out, "--online", other});
+        auto const refused = run({"online", h3, "--out", out, other});
         CHECK(refused.code == 2);
-        CHECK_THAT(refused.err, ContainsSubstring("--online"));
     }
 }
 
@@ -138,7 +137,8 @@ TEST_CASE("a quiet run says nothing on stderr, 3 when undecided, 4 when inconsis
     CHECK(r.code == 0);
 }
 
-TEST_CASE("the report's own means are one command, and sets of first order take each kind of method") {
+TEST_CASE(
+    "the report's own means are one command, and sets of first order take each kind of method") {
     temporary_folder const folder;
     auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
     REQUIRE(run({"generate", "--scenario", "S1", "--out", data, "--absolute", "0.05", "--method",
@@ -169,11 +169,11 @@ TEST_CASE("the report's own means are one command, and sets of first order take 
     CHECK(run({"check", out, "--sample", "4"}).code != 5);
     CHECK(run({"identify", data, "--out", out, "--method", "rk5"}).code == 2);
     CHECK(run({"identify", data, "--out", out, "--set", "second-order"}).code == 2);
-    r = run({"identify", data, "--out", out, "--online", "--method", "rk4"});
+    r = run({"online", data, "--out", out, "--method", "rk4"});
     CHECK(r.code == 2);
     CHECK_THAT(r.err, ContainsSubstring("--set first-order with --method rk4"));
-    r = run({"identify", data, "--out", out, "--online", "--quiet", "--method", "rk4", "--set",
-             "first-order", "--budget", "5"});
+    r = run({"online", data, "--out", out, "--quiet", "--method", "rk4", "--set", "first-order",
+             "--budget", "5"});
     CHECK((r.code == 0 || r.code == 3));
 }
 
@@ -228,7 +228,8 @@ TEST_CASE("every command that encloses takes a method and a set, or says what to
     };
     refused({"check", result, "--set", "first-order"}, "leave it out");
     refused({"rank", "--out", none, "--set", "first-order"}, "give a data set or --scenario");
-    refused({"rank", "--out", none, "--method", "rk4"}, "give --set first-order");
+    refused({"rank", "--scenario", "S1", "--out", none, "--method", "rk4"},
+            "give --set first-order");
     refused({"predict", result, "--scenario", "S1", "--out", none, "--method", "rk5"}, "--method");
 }
 
@@ -582,7 +583,9 @@ TEST_CASE("diagnose says where, which and how far, ends with 0 whatever it finds
     CHECK_THAT(text, StartsWith("<!DOCTYPE html>") && ContainsSubstring("</html>"));
     CHECK_THAT(text, ContainsSubstring("lag") && !ContainsSubstring("<script "));
     CHECK_THAT(r.err, ContainsSubstring("a gap is proved"));
-    CHECK_THAT(r.out, ContainsSubstring("answer: rudder_lag (explains)"));
+    CHECK_THAT(r.out, ContainsSubstring("answer: rudder_lag (explains)") &&
+                          ContainsSubstring("ranges of all parameters"));
+    CHECK(json_of(out / "model/result.json")["effects"] == nlohmann::json{"rudder_lag"});
 
     r = run({"diagnose", yard, "--out", out.string(), "--budget", "0", "--quiet"});
     CHECK(r.code == 3);
@@ -642,7 +645,7 @@ TEST_CASE("Ctrl-C stops with what is proved until then and a second one ends the
     }
 }
 
-TEST_CASE("simulate and rank write their tables and pages") {
+TEST_CASE("simulate and influence write their tables and pages") {
     temporary_folder const folder;
     auto const out = folder.path() / "out";
     auto const r = run({"simulate", "--scenario", "all", "--validated", "--out", out.string()});
@@ -658,11 +661,11 @@ TEST_CASE("simulate and rank write their tables and pages") {
                std::string{SIVID_SOURCE_DIR} + "/examples/hovercraft/scenarios/dock.json", "--out",
                (folder.path() / "dock").string(), "--input-rate", "50", "--set", "Sg=0.05"})
               .code == 0);
-    auto const k = run({"rank", "--out", (folder.path() / "rank").string()});
+    auto const k = run({"influence", "--out", (folder.path() / "influence").string()});
     CHECK(k.code == 0);
     CHECK_THAT(k.out, ContainsSubstring("Sv important for u', but it does not occur in u'"));
     CHECK_THAT(k.out, ContainsSubstring("D22 negligible for r', but it does not occur in r'"));
-    CHECK(rows(folder.path() / "rank" / "ranking.csv") > 20);
+    CHECK(rows(folder.path() / "influence" / "influence.csv") > 20);
 }
 
 TEST_CASE("rank bounds the effects on a data set and on a scenario") {

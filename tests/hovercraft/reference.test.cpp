@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The model against numbers and equations that do not come from it.
+#include "craft.hpp"
 #include "model.hpp"
-#include "scenario.hpp"
 
 #include "support/catch.hpp"
 #include "support/flow_simulation.hpp"
 
+#include <sivid/app/generate.hpp>
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/enclosure/methods.hpp>
 #include <sivid/io/dataset/model_names.hpp>
@@ -16,7 +17,6 @@
 #include <memory>
 #include <random>
 
-using namespace hovercraft_example;
 using sivid::interval;
 
 namespace {
@@ -28,7 +28,7 @@ struct run {
     run(std::string const& name, std::map<std::string, double> const& set = {},
         hovercraft craft = {})
         : model{sivid::record_model(craft)},
-          scenario{find_scenarios(name, sivid::names_of(model.about)).front()} {
+          scenario{sivid::app::find_scenario(hovercraft_example::craft(), name)} {
         sivid::parameter_choice choice;
         for (auto const& [constant, value] : set) choice.fixed[constant] = interval(value);
         std::vector<sivid::signal> inputs;
@@ -44,7 +44,7 @@ struct run {
                                           scenario.duration, options);
     }
     sivid::recorded_model model;
-    scenario_description scenario;
+    sivid::scenario_description scenario;
     std::shared_ptr<sivid::flow const> f;
     std::vector<double> start;
 };

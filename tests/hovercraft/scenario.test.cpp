@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: MIT
-#include "scenario.hpp"
-#include "model.hpp"
+#include "craft.hpp"
 
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+#include <sivid/app/generate.hpp>
 #include <sivid/io/dataset/model_names.hpp>
 
 #include <cmath>
 #include <set>
 
-using namespace hovercraft_example;
+using namespace sivid;
+using hovercraft_example::built_in_scenarios;
 
 namespace {
 
-sivid::model_names names() { return sivid::names_of(sivid::record_model(hovercraft{}).about); }
+app::robot const& craft() {
+    static auto const once = hovercraft_example::craft();
+    return once;
+}
+model_names names() { return names_of(craft().model.about); }
 
 char const* const good = R"({
   "format": "hovercraft-scenario-1", "name": "mine", "duration": 2,
@@ -33,7 +38,7 @@ TEST_CASE("every bundled scenario is built in under its file's name") {
     auto const model = names();
     std::set<std::string> built_in;
     for (auto const& s : built_in_scenarios()) {
-        auto const found = find_scenarios(std::string{s.name}, model);
+        auto const found = app::find_scenarios(craft(), s.name);
         REQUIRE(found.size() == 1);
         CHECK(found[0].name == s.name);
         CHECK_FALSE(found[0].about.empty());
@@ -50,7 +55,7 @@ TEST_CASE("every bundled scenario is built in under its file's name") {
 }
 
 TEST_CASE("'all' is Table 2.4") {
-    auto const all = find_scenarios("all", names());
+    auto const all = app::find_scenarios(craft(), "all");
     REQUIRE(all.size() == 3);
     CHECK(all[0].duration == 1);
     CHECK(all[1].duration == 10);
@@ -107,5 +112,5 @@ TEST_CASE("a defect of a scenario file is named with its place") {
             CHECK_THAT(e.what(), ContainsSubstring(d.message));
         }
     }
-    CHECK_THROWS_WITH(find_scenarios("S9", names()), ContainsSubstring("one of: all, "));
+    CHECK_THROWS_WITH(app::find_scenarios(craft(), "S9"), ContainsSubstring("one of: all, "));
 }

@@ -23,11 +23,12 @@ TEST_CASE("from a robot's log to gains that are proved for all that it leaves", 
     temporary_folder const folder;
     auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
     auto const mapping = std::string{SIVID_SOURCE_DIR} + "/examples/own_robot/mapping.json";
-    REQUIRE(support::run_program(IMPORT_PROGRAM, {mapping, "--out", data}).code == 0);
-    auto const found = run({data, "--out", out, "--budget", "10", "--quiet"});
+    REQUIRE(run({"import", mapping, "--out", data}).code == 0);
+    auto const found = run({"diagnose", data, "--out", out, "--budget", "20", "--quiet"});
     CHECK_THAT(found.out, ContainsSubstring("dry_friction"));
     auto const result = out + "/model";
     REQUIRE(fs::exists(result + "/result.json"));
+    CHECK(run({"report", result, "--out", (folder.path() / "page").string()}).code == 0);
     folder.write("push.json",
                  R"({ "format": "sivid-scenario-1", "name": "push", "duration": 0.5,
                       "initial": { "theta": 0, "w": 5 },

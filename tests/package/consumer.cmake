@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs examples/consumer in an empty folder WORK, in one of these WAYs: copy, single_header, add_subdirectory,
 # fetch_content, find_package, pkg_config, debian (of the packages that cpack makes), conan and vcpkg; and with
-# tests/package/components or tests/package/compiled in its place: components, compiled_add_subdirectory,
-# compiled_find_package.
+# tests/package/components, tests/package/compiled or examples/own_robot in its place: components,
+# compiled_add_subdirectory, compiled_find_package, app.
 cmake_minimum_required(VERSION 3.22)
 
 function(run)
@@ -27,6 +27,8 @@ if(WAY MATCHES "^compiled_(.*)")
          "-DCMAKE_CXX_FLAGS=${FLAGS}")
 elseif(WAY STREQUAL "components")
     set(project "${SOURCE}/tests/package/components")
+elseif(WAY STREQUAL "app")
+    set(project "${SOURCE}/examples/own_robot")
 endif()
 file(REMOVE_RECURSE "${WORK}")
 file(COPY "${project}/" DESTINATION "${WORK}/program")
@@ -173,7 +175,14 @@ else()
 endif()
 run("${CMAKE_COMMAND}" -S "${WORK}/program" -B "${WORK}/build" ${options})
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
-run("${WORK}/build/consumer")
+if(WAY STREQUAL "app")
+    run("${WORK}/build/own_robot" describe)
+    if(NOT run_text MATCHES "^model geared_motor")
+        message(FATAL_ERROR "the program says something else: ${run_text}")
+    endif()
+else()
+    run("${WORK}/build/consumer")
+endif()
 if(with_compiled AND NOT run_text MATCHES "^consistent: r in")
     message(FATAL_ERROR "the first program says something else: ${run_text}")
 endif()

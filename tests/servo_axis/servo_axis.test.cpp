@@ -70,7 +70,7 @@ TEST_CASE("a simulated axis is identified from its windows", "[servo_axis]") {
     auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
     REQUIRE(run_program(SERVO_AXIS_PROGRAM, {"windows", folder.path().string(), "--out", data})
                 .code == 0);
-    auto const found = run_program(SERVO_AXIS_PROGRAM, {data, "--out", out, "--budget", "20",
+    auto const found = run_program(SERVO_AXIS_PROGRAM, {"diagnose", data, "--out", out, "--budget", "20",
                                                         "--quiet"});
     INFO(found.err);
     auto const result = nlohmann::json::parse(text_of(fs::path{out} / "model/result.json"));
@@ -83,7 +83,7 @@ TEST_CASE("a simulated axis is identified from its windows", "[servo_axis]") {
         CHECK(hull[1].get<double>() - hull[0].get<double>() < 0.3 * truth[j]);
         ++j;
     }
-    CHECK_THAT(text_of(fs::path{out} / "model.json"),
+    CHECK_THAT(text_of(fs::path{out} / "model/result.json"),
                ContainsSubstring("stands for the model error over a window of a second"));
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("the real axis: offset and friction explain most, the direction the re
 #else
     auto const patience = "300";
 #endif
-    REQUIRE(run_program(SERVO_AXIS_PROGRAM, {data, "--quiet", "--budget", patience, "--out",
+    REQUIRE(run_program(SERVO_AXIS_PROGRAM, {"diagnose", data, "--quiet", "--budget", patience, "--out",
                                              out.string()}).code == 0);
     auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
     CHECK(d["gap"]["verdict"] == "certified");

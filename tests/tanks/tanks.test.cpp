@@ -69,9 +69,9 @@ TEST_CASE("the real tanks: where, which, and what stays", "[.long][measured]") {
     fs::copy(fs::path{SIVID_SOURCE_DIR} / "examples/measured/tanks/mapping.json", folder.path());
     auto const data = (folder.path() / "data").string();
     auto const out = folder.path() / "out";
-    REQUIRE(run_program(IMPORT_PROGRAM,
-                        {(folder.path() / "mapping.json").string(), "--out", data}).code == 0);
-    REQUIRE(run_program(TANKS_PROGRAM, {data, "--quiet", "--budget", "600", "--out", out.string()})
+    REQUIRE(run_program(TANKS_PROGRAM,
+                        {"import", (folder.path() / "mapping.json").string(), "--out", data}).code == 0);
+    REQUIRE(run_program(TANKS_PROGRAM, {"diagnose", data, "--quiet", "--budget", "600", "--out", out.string()})
                 .code == 0);
     auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
     CHECK(d["gap"]["verdict"] == "certified");

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// servo_axis windows FOLDER --out DATASET: the records of a real servo axis (EMPS), cut into windows;
-// servo_axis DATASET --out DIR: what M v' = F - F_v v leaves out of it, and all that a robot's program
-// does (console::robot_program).
+// servo_axis COMMAND ...: what M v' = F - F_v v leaves out of the records of a real servo axis
+// (EMPS); servo_axis windows FOLDER --out DATASET cuts them into windows.
 #include "axis_effects.hpp"
-#include "console/robot_program.hpp"
 #include "linear_axis.hpp"
 #include "windows.hpp"
 
+#include <sivid/app/app.hpp>
+#include <sivid/app/program.hpp>
 #include <sivid/io/dataset_writer.hpp>
 
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <iostream>
 #include <string>
 
 namespace {
@@ -25,12 +26,12 @@ int cut_windows(int argc, char** argv) {
     app.add_option("--bound", bound, "of the position: it stands for the model error [m]")
         ->capture_default_str();
     try {
-        app.parse(argc - 1, argv + 1);
+        app.parse(argc, argv);
     } catch (CLI::ParseError const& e) {
-        return app.exit(e) == 0 ? 0 : static_cast<int>(console::bad_input);
+        return app.exit(e) == 0 ? 0 : static_cast<int>(sivid::app::bad_input);
     }
     servo::window_bounds bounds;
-    bounds.model_error = console::positive_decimal(bound, "--bound");
+    bounds.model_error = sivid::app::positive_decimal(bound, "--bound");
     auto data = servo::axis_dataset(bounds);
     auto const add = [&](char const* file, char const* name, sivid::scenario_role role) {
         servo::add_windows(data, servo::read_recording(folder / file), name, role, bounds);
@@ -40,14 +41,14 @@ int cut_windows(int argc, char** argv) {
         add("validation_200Hz.csv", "validation", sivid::scenario_role::holdout);
     sivid::write_dataset(data, sivid::names_of(sivid::record_model(linear_axis{}).about), out);
     std::cout << "written: " << data.scenarios.size() << " windows in " << out.string() << "\n";
-    return console::done;
+    return sivid::app::done;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc > 1 && std::string{argv[1]} == "windows")
-        return console::guarded("servo_axis", [&] { return cut_windows(argc, argv); });
-    return console::robot_program("servo_axis", "What a mass with viscous friction leaves out",
-                                  linear_axis{}, servo::axis_catalogue(), argc, argv);
+    auto robot = sivid::app::robot_of("servo_axis", "What a mass with viscous friction leaves out",
+                                      linear_axis{}, servo::axis_catalogue());
+    robot.commands = {{"windows", "cut the records of the axis into windows", cut_windows}};
+    return sivid::app::run(robot, argc, argv);
 }

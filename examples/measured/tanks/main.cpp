@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// tanks DATASET --out DIR: what two tanks without rims leave out of a measured record, which
-// `sivid-import mapping.json` turns into the data set.
-#include "console/robot_program.hpp"
+// tanks COMMAND ...: what two tanks without rims leave out of a measured record, which
+// `tanks import mapping.json` turns into the data set.
 #include "effects.hpp"
 #include "model.hpp"
 
+#include <sivid/app/app.hpp>
+
 int main(int argc, char** argv) {
-    return console::robot_program("tanks", "What two tanks without rims leave out of a record",
-                                  cascaded_tanks{}, tanks::catalogue(), argc, argv);
+    auto const robot =
+        sivid::app::robot_of("tanks", "What two tanks without rims leave out of a record",
+                             cascaded_tanks{}, tanks::catalogue());
+    return sivid::app::run(robot, argc, argv);
 }

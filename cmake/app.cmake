@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+# sivid::app: the program of a robot around its model (include/sivid/app), compiled once, as sivid::compiled, to which it
+# belongs. It works on all threads where sivid::parallel is, checks in 40 digits where MPFI is, imports files of MATLAB
+# where sivid::matlab is, and shares its work by MPI where sivid::cluster is (asked for, or SIVID_PROGRAMS_WITH_MPI).
+#
+# Included behind compiled.cmake by sivid's own tree and by find_package(sivid COMPONENTS app).
+
+if(NOT TARGET sivid::app_headers OR TARGET sivid::app)
+    return()
+endif()
+set(sivid_compiled_sources "")
+foreach(part IN ITEMS app_identification app_decision app)
+    sivid_compiled_source(${part} "#include <sivid/impl/${part}.ipp>\n")
+endforeach()
+add_library(sivid_app STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
+add_library(sivid::app ALIAS sivid_app)
+find_package(Threads REQUIRED) # a fleet has one for each of its processes
+target_link_libraries(sivid_app PUBLIC sivid::app_headers sivid_compiled PRIVATE Threads::Threads)
+foreach(component IN ITEMS parallel matlab)
+    if(TARGET sivid::${component})
+        target_link_libraries(sivid_app PRIVATE sivid::${component})
+    endif()
+endforeach()
+if(TARGET sivid::cluster AND (SIVID_PROGRAMS_WITH_MPI OR NOT DEFINED SIVID_PROGRAMS_WITH_MPI))
+    target_link_libraries(sivid_app PRIVATE sivid::cluster)
+endif()
+if(TARGET sivid::compiled_mpfi)
+    target_compile_definitions(sivid_app PRIVATE SIVID_HAS_MPFI=1)
+    target_link_libraries(sivid_app PRIVATE sivid_compiled_mpfi)
+endif()

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_APP_APP_HPP
+#define SIVID_APP_APP_HPP
+
+#include <sivid/app/robot.hpp>
+#include <sivid/compiled.hpp>
+
+namespace sivid::app {
+
+/// The whole program of a robot, `main` but for its name: `PROGRAM COMMAND ...`, with the commands
+/// import, simulate, generate, identify, online, check, diagnose, predict, verify, control, design,
+/// rank, report, describe and fleet (`commands.hpp`), and the robot's own. `PROGRAM COMMAND --help`
+/// lists options and an example.
+///   What it prints on the standard output are results; progress and errors go to the other one.
+///   The
+/// first Ctrl-C ends the work, and what is proved by then is written; a second one ends the
+/// program. Files are written whole or not at all.
+/// @returns  the exit code (`exit_code` in `program.hpp`); it does not throw
+[[nodiscard]] SIVID_DECL int run(robot const& r, int argc, char** argv);
+
+} // namespace sivid::app
+
+#ifndef SIVID_COMPILED
+#include <sivid/app/impl/app.ipp>
+#include <sivid/app/impl/check.ipp>
+#include <sivid/app/impl/decide.ipp>
+#include <sivid/app/impl/design.ipp>
+#include <sivid/app/impl/diagnose.ipp>
+#include <sivid/app/impl/fleet.ipp>
+#include <sivid/app/impl/identify.ipp>
+#include <sivid/app/impl/rank.ipp>
+#include <sivid/app/impl/report.ipp>
+#include <sivid/app/impl/simulate.ipp>
+#endif
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_APP_CONSOLE_HPP
+#define SIVID_APP_CONSOLE_HPP
+
+#include <sivid/version.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+/// @file
+/// What all commands share at the terminal: progress, Ctrl-C, and who computed when.
+namespace sivid::app {
+
+namespace detail {
+inline volatile std::sig_atomic_t interruption = 0;
+extern "C" inline void sivid_app_interrupt(int) {
+    interruption = 1;
+    std::signal(SIGINT, SIG_DFL);
+}
+/// Batch systems and mpirun may say it more than once.
+extern "C" inline void sivid_app_interrupt_of_job(int) { interruption = 1; }
+} // namespace detail
+
+/// From now on the first Ctrl-C asks for the result so far, the second one ends the program.
+inline void watch_interrupts() {
+    detail::interruption = 0;
+    std::signal(SIGINT, detail::sivid_app_interrupt);
+}
+inline bool interrupted() { return detail::interruption != 0; }
+/// What work asks whether to go on.
+inline bool wanted() { return !interrupted(); }
+
+/// Progress on stderr: one line that is rewritten on a terminal, else a new one each second.
+class progress_line {
+public:
+    explicit progress_line(bool quiet)
+        : quiet_{quiet}, terminal_{::isatty(STDERR_FILENO) != 0}, begin_{clock::now()} {}
+
+    /// A line that stays.
+    void note(std::string const& text) {
+        if (quiet_) return;
+        finish();
+        std::fprintf(stderr, "%7.1f s  %s\n", elapsed(), text.c_str());
+    }
+    /// What goes on now; shown when the last was some time ago.
+    void show(std::string const& text) {
+        auto const now = clock::now();
+        double const pause = terminal_ ? 0.1 : 1.0;
+        if (quiet_ || (shown_ && std::chrono::duration<double>(now - last_).count() < pause)) {
+            return;
+        }
+        last_ = now;
+        shown_ = true;
+        std::fprintf(stderr, "%s%7.1f s  %s%s", terminal_ ? "\r\x1b[K" : "", elapsed(),
+                     text.c_str(), terminal_ ? "" : "\n");
+        std::fflush(stderr);
+    }
+    void finish() {
+        if (shown_ && terminal_) std::fputc('\n', stderr);
+        shown_ = false;
+    }
+    [[nodiscard]] double elapsed() const {
+        return std::chrono::duration<double>(clock::now() - begin_).count();
+    }
+
+private:
+    using clock = std::chrono::steady_clock;
+    bool quiet_, terminal_, shown_ = false;
+    clock::time_point begin_, last_;
+};
+
+/// One line about the state of a paving.
+template <class PavingProgress>
+std::string paving_words(PavingProgress const& p) {
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "%8zu boxes  %6zu waiting  inside %9.3g %%  not excluded %9.3g %% of the prior",
+                  p.tested, p.pending, 100 * p.inner, 100 * p.outer);
+    return text;
+}
+
+/// Today, as 2024-11-20.
+inline std::string today() {
+    auto const now = std::time(nullptr);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d", std::localtime(&now));
+    return text;
+}
+/// Compiler and number of threads used.
+inline std::string machine_text() {
+#if defined(__clang__)
+    std::string const compiler = std::string{"clang "} + __clang_version__;
+#else
+    std::string const compiler = std::string{"g++ "} + __VERSION__;
+#endif
+    return std::string{"one thread, "} + compiler.substr(0, compiler.find(" ("));
+}
+
+/// The last lines of a page.
+inline std::vector<std::string> page_footer(std::string const& command) {
+    return {"sivid " + std::string{version}, today(), machine_text(), command};
+}
+
+} // namespace sivid::app
+
+#endif

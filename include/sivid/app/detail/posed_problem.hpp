@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_APP_DETAIL_POSED_PROBLEM_HPP
+#define SIVID_APP_DETAIL_POSED_PROBLEM_HPP
+
+#include <sivid/app/names.hpp>
+#include <sivid/app/robot.hpp>
+#include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset_effects.hpp>
+#include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/io/text/printable_text.hpp>
+#include <sivid/model/affected_problem.hpp>
+#include <sivid/model/named_effects.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace sivid::app {
+
+/// A problem, and effects to be joined to it over whose ranges no run goes: those that remember (a
+/// delay, a play, a rate limit), or begin where their parameters say.
+struct remembering_problem {
+    identification_problem base;
+    std::vector<effect> effects;
+};
+
+/// The way from one folder to another, if there is one that may stand in a file.
+inline std::string seen_from(std::filesystem::path const& here,
+                             std::filesystem::path const& there) {
+    std::error_code fault;
+    auto const way = std::filesystem::relative(there, here, fault);
+    auto const text = fault ? std::string{} : way.generic_string();
+    return unprintable_in(text).empty() ? text : std::string{};
+}
+
+/// The data set of a folder. @throws input_error
+inline dataset read_data(robot const& r, std::filesystem::path const& folder) {
+    return read_dataset(folder, names_of(r.model.about));
+}
+
+/// Where the data of a result are: as told, or as it says itself. @throws bad_request
+inline std::filesystem::path data_of_result(std::filesystem::path const& result,
+                                            std::filesystem::path const& told,
+                                            std::string const& stated) {
+    if (!told.empty()) return told;
+    if (stated.empty())
+        throw bad_request("the result does not say where its data set is: give --dataset");
+    return result / stated;
+}
+
+/// The robot's effects of these names, as the data set has them.
+/// @throws bad_request  for a name that there is not
+inline std::vector<effect> effects_of(robot const& r, dataset const& data,
+                                      std::vector<std::string> const& names) {
+    auto const catalogue = chosen_effects(r.effects, data);
+    try {
+        return effects_named(catalogue, names, &r.model.about);
+    } catch (std::invalid_argument const& e) {
+        auto const known = names_in(catalogue);
+        for (auto const& name : names) {
+            if (std::find(known.begin(), known.end(), name) == known.end())
+                throw bad_request(e.what() + suggestion(name, known));
+        }
+        throw bad_request(e.what());
+    }
+}
+
+/// What a data set's result with effects rests on besides what is proved.
+inline std::vector<std::string> assumptions_of(robot const& r, dataset const& data,
+                                               std::vector<std::string> const& effects) {
+    auto result = data.assumptions;
+    for (auto& words : wrap_assumptions(effects_of(r, data, effects)))
+        result.push_back(std::move(words));
+    return result;
+}
+
+/// The identification problem of a data set, effects of the catalogue joined to its model.
+/// @param remembering  receives what it was made of where it has such effects; null: they are
+///                     refused
+/// @throws bad_request  for an effect that is unknown, given twice, or whose parameters cannot be
+///                      identified with proof
+[[nodiscard]] inline identification_problem
+posed(robot const& r, dataset const& data, std::vector<std::string> const& effects,
+      std::optional<outlier_rule> const& outliers = std::nullopt,
+      std::optional<remembering_problem>* remembering = nullptr) {
+    auto problem = problem_from_dataset(data, r.model, outliers);
+    if (effects.empty()) return problem;
+    auto base = problem;
+    auto const named = effects_of(r, data, effects);
+    try {
+        for (auto const& e : named) {
+            for (auto const& scenario : e.only_in)
+                (void)index_of(problem.experiments, scenario, "scenario to fit");
+        }
+        problem = affected(problem, named);
+    } catch (std::invalid_argument const& e) {
+        throw bad_request(e.what());
+    }
+    bool const remembers = problem.model.has_memory();
+    bool const partial =
+        std::any_of(named.begin(), named.end(), [](auto const& e) { return !e.only_in.empty(); });
+    if (remembering != nullptr && !partial && (remembers || starts_follow_parameters(problem))) {
+        *remembering = remembering_problem{std::move(base), named};
+        return problem;
+    }
+    if (remembers)
+        throw bad_request("an effect that delays, a backlash or a rate limit cannot be joined "
+                          "here yet; `identify` bounds those that act everywhere, `diagnose` "
+                          "all, and both verify them at points");
+    if (starts_follow_parameters(problem))
+        throw bad_request("these effects together begin where their parameters say, which an "
+                          "identification cannot follow yet; `diagnose` tries them at points");
+    return problem;
+}
+
+/// What was identified, for people: the data set, and what was joined to the model.
+[[nodiscard]] inline std::string title_of(dataset const& data,
+                                          std::vector<std::string> const& effects) {
+    std::string title = data.id;
+    for (std::size_t k = 0; k < effects.size(); ++k)
+        title += (k == 0 ? " with " : k + 1 == effects.size() ? " and " : ", ") + effects[k];
+    return title;
+}
+
+} // namespace sivid::app
+
+#endif

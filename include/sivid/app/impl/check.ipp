@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_APP_IMPL_CHECK_IPP
+#define SIVID_APP_IMPL_CHECK_IPP
+
+#include <sivid/app/commands.hpp>
+
+#include <sivid/app/console.hpp>
+#include <sivid/app/detail/posed_problem.hpp>
+#include <sivid/app/program.hpp>
+#include <sivid/io/dataset/dataset_digest.hpp>
+#include <sivid/io/diagnosis_reader.hpp>
+#include <sivid/io/identification_reader.hpp>
+#include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/number/text/joined.hpp>
+#include <sivid/report/number_text.hpp>
+#include <sivid/verifier/diagnosis_check.hpp>
+#include <sivid/verifier/identification_check.hpp>
+#ifdef SIVID_HAS_MPFI
+#include <sivid/verifier/mp_identification_check.hpp>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace sivid::app {
+
+namespace detail {
+
+#ifdef SIVID_HAS_MPFI
+inline constexpr auto exact_words = "40 digits";
+inline constexpr auto fast_words = "doubles, elementary functions in 40 digits";
+#else
+inline constexpr auto exact_words = "doubles (built without MPFI)";
+inline constexpr auto fast_words = exact_words;
+#endif
+
+using outcome = check_finding::outcome;
+
+inline void print(check_finding const& f) {
+    std::cout << "  " << std::left << std::setw(17) << f.what << " " << std::setw(14)
+              << to_string(f.found) << " " << f.detail;
+    if (f.seconds > 0.01)
+        std::cout << (f.detail.empty() ? "" : ", ") << report::duration_text(f.seconds);
+    std::cout << std::endl;
+}
+
+inline int exit_code_of(outcome o) {
+    switch (o) {
+    case outcome::verified:
+    case outcome::nothing:
+        return 0;
+    case outcome::refuted:
+        return refuted;
+    case outcome::undecided:
+    case outcome::sampled:
+        break;
+    }
+    return undecided;
+}
+
+inline std::vector<check_finding> work(identification_problem const& problem,
+                                       stored_identification const& stored,
+                                       identification_check_options const& options,
+                                       [[maybe_unused]] bool multiprecision) {
+#ifdef SIVID_HAS_MPFI
+    return multiprecision ? check_in_multiprecision(problem, stored, options, print)
+                          : check_by_proven_functions(problem, stored, options, print);
+#else
+    using check = identification_check<interval, interval>;
+    return check(problem, stored, options)(print);
+#endif
+}
+
+/// Whether the data are those of a result, by name and digest.
+inline check_finding source_of(std::filesystem::path const& folder, dataset const& data,
+                               std::string const& name, std::string const& digest,
+                               std::string const& done) {
+    if (!digest.empty() && dataset_digest(folder) != digest)
+        return {"data set", outcome::refuted, "not the one " + done};
+    if (name != data.id)
+        return {"data set", outcome::refuted,
+                "the result names " + in_quotes(name) + ", the data set " + in_quotes(data.id)};
+    if (digest.empty())
+        return {"data set", outcome::nothing, "no digest in the result: " + data.id + " taken"};
+    return {"data set", outcome::verified, "the one " + done + ", by SHA-256"};
+}
+
+/// Names what lies in the folder and was not looked at: pictures, pages, other commands' results.
+inline void print_unchecked(std::filesystem::path const& folder) {
+    std::vector<std::string> names;
+    std::error_code fault;
+    for (auto const& entry : std::filesystem::directory_iterator(folder, fault)) {
+        auto const name = entry.path().filename().string();
+        constexpr std::array checked{"result.json",      "boxes.csv",   "products.csv",
+                                     "certificates.csv", "outputs.csv", "diagnosis.json"};
+        if (std::ranges::find(checked, name) == checked.end())
+            names.push_back(printable_text(name, 60));
+    }
+    std::ranges::sort(names);
+    constexpr std::size_t most = 20;
+    auto const more = names.size() > most ? names.size() - most : 0;
+    names.resize(names.size() - more);
+    if (!names.empty())
+        std::cout << "  not checked: " << joined(names, ", ")
+                  << (more > 0 ? " and " + std::to_string(more) + " more" : std::string{}) << "\n";
+}
+
+/// The findings in a sentence, and the exit code.
+inline int concluded(std::string const& title, std::vector<check_finding> const& findings,
+                     std::filesystem::path const& folder) {
+    auto const verdict = overall(findings);
+    double seconds = 0;
+    std::string left;
+    for (auto const& f : findings) {
+        seconds += f.seconds;
+        if (f.found == outcome::nothing && !f.detail.empty()) left += ", not the " + f.what;
+    }
+    print_unchecked(folder);
+    std::cout << title << ": "
+              << (verdict == outcome::refuted     ? "REFUTED"
+                  : verdict == outcome::undecided ? "not verified within the budget"
+                  : verdict == outcome::sampled
+                      ? "sampled: nothing refuted, not verified; --all proves every claim"
+                      : "verified, every claim")
+              << (verdict == outcome::verified ? left : "") << " in "
+              << report::duration_text(seconds) << "\n";
+    return exit_code_of(verdict);
+}
+
+inline int check_identification(robot const& r, check_command const& c) {
+    auto const stored = read_identification(c.result);
+    auto const folder = data_of_result(c.result, c.dataset, stored.source_folder);
+    auto const data = read_data(r, folder);
+    auto problem = posed(r, data, stored.effects);
+    auto const source = source_of(folder, data, stored.dataset, stored.source_digest, "identified");
+    std::cout << "checking " << (c.result / "result.json").string() << " against "
+              << folder.lexically_normal().string() << "\n";
+    print(source);
+    if (source.found == outcome::refuted) return refuted;
+    require_same_problem(problem, stored, c.result / "result.json");
+    bool own_budget = true;
+    for (auto& e : problem.experiments) {
+        own_budget = own_budget && e.outliers == stored.budget.at(e.name);
+        e.outliers = stored.budget.at(e.name);
+    }
+    if (!own_budget)
+        std::cout << "  note: the outlier budget is the result's, not the data set's\n";
+
+    identification_check_options options;
+    options.all = c.all;
+    options.sample = c.sample;
+    options.seed = c.seed;
+    options.seconds = c.budget.value_or(c.all ? 3600 : 10);
+    apply(c.how, options.certificate);
+    options.further_assumptions = assumptions_of(r, data, stored.effects);
+    options.certificate.keep_going = wanted;
+    auto const findings = work(problem, stored, options, c.multiprecision);
+    auto const by = c.how.method == "taylor" ? std::string{} : ", " + c.how.method;
+    std::cout << "  witness and products in " << exact_words << "; boxes in "
+              << (c.multiprecision ? exact_words : fast_words)
+              << (c.all ? ": Taylor models in scalars, then first-order sets (Lohner" + by +
+                              "), decided anew\n"
+                        : ", by first-order sets (Lohner" + by +
+                              "), not by the Taylor models that found them\n");
+    return concluded(title_of(data, stored.effects), findings, c.result);
+}
+
+/// A diagnosis: every claim by its own prover, whatever --sample says.
+inline int check_diagnosed(robot const& r, check_command const& c) {
+    auto const stored = read_diagnosis(c.result);
+    auto const folder = data_of_result(c.result, c.dataset, stored.source.folder);
+    auto const data = read_data(r, folder);
+    auto const base = problem_from_dataset(data, r.model);
+    auto const source = source_of(folder, data, stored.dataset, stored.source.digest, "diagnosed");
+    std::cout << "checking " << (c.result / "diagnosis.json").string() << " against "
+              << folder.lexically_normal().string() << "\n";
+    print(source);
+    if (source.found == outcome::refuted) return refuted;
+    auto const held_out = holdout_from_dataset(data, r.model.about);
+    diagnosis_check_options options;
+    options.seconds = c.budget.value_or(c.all ? 3600 : 60);
+    options.held_out = &held_out;
+    if (c.how.method != "taylor")
+        throw bad_request("--method: a diagnosis is checked by Taylor models, which follow the "
+                          "Taylor series; leave it out");
+    options.test.keep_going = wanted;
+    auto findings = check_diagnosis(base, chosen_effects(r.effects, data), stored, options, print);
+    findings.push_back(source);
+    return concluded(data.id, findings, c.result);
+}
+
+} // namespace detail
+
+SIVID_DECL int run(robot const& r, check_command const& c) {
+    if (!c.how.set.empty())
+        throw bad_request("--set: check proves by sets of its own, of first order, and with --all "
+                          "by Taylor models before these; leave it out, whatever identify took");
+    watch_interrupts(); // reading a large result takes a while, too
+    std::error_code fault;
+    bool const diagnosed = std::filesystem::exists(c.result / "diagnosis.json", fault);
+    bool const identified = std::filesystem::exists(c.result / "result.json", fault);
+    int const first = identified || !diagnosed ? detail::check_identification(r, c) : done;
+    int const second = diagnosed ? detail::check_diagnosed(r, c) : done;
+    for (int const code : {refuted, undecided})
+        if (first == code || second == code) return code;
+    return done;
+}
+
+} // namespace sivid::app
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_APP_PROGRAM_HPP
+#define SIVID_APP_PROGRAM_HPP
+
+#include <sivid/io/input_error.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
+#include <sivid/io/text/printable_text.hpp>
+#include <sivid/io/text/text_file.hpp>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+/// @file
+/// What a command line program of sivid's is made of: exit codes, options in decimals, one message
+/// for whatever goes wrong.
+namespace sivid::app {
+
+/// Exit codes of sivid's programs.
+enum exit_code {
+    done = 0,
+    consistent = 0,
+    bad_input = 2,
+    undecided = 3,
+    inconsistent = 4,
+    refuted = 5, ///< of a check: the result is not what its data prove
+    internal_error = 70
+};
+
+/// A request that cannot be met: the message says why.
+class bad_request : public std::invalid_argument {
+public:
+    using std::invalid_argument::invalid_argument;
+};
+
+/// The command as it was given, for the report's footer.
+inline std::string command_line(std::string program, int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) program += std::string{" "} + argv[i];
+    return program;
+}
+
+/// What was printed has arrived. (Ranks that help have set failbit: they print nothing.)
+/// @throws output_error
+inline void require_printed() {
+    std::cout.flush();
+    if (std::cout.bad() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw output_error("the standard output cannot be written; check permissions and "
+                           "space");
+}
+
+/// Runs a program and turns what it throws into one message and an exit code: bad input, requests
+/// that cannot be met (std::invalid_argument), more than the memory holds and files that cannot be
+/// written into 2, all else into 70.
+template <class Program>
+int guarded(std::string const& name, Program const& program) {
+    // Whatever a message quotes, it must not steer the terminal, nor fill it.
+    auto const text = [](std::exception const& e) { return printable_text(e.what(), 4000, true); };
+    auto const refuse = [&](std::exception const& e) {
+        std::cerr << name << ": " << text(e) << "\n";
+        return static_cast<int>(bad_input);
+    };
+#ifdef SIGXFSZ
+    std::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit is an error of writing, with a message
+#endif
+    try {
+        int const code = program();
+        require_printed();
+        return code;
+    } catch (input_error const& e) {
+        return refuse(e);
+    } catch (output_error const& e) {
+        return refuse(e);
+    } catch (std::invalid_argument const& e) {
+        return refuse(e);
+    } catch (std::domain_error const& e) { // a model or motion that is not defined there
+        return refuse(e);
+    } catch (std::filesystem::filesystem_error const& e) {
+        std::cerr << name << ": " << printable_path(e.path1().string()) << ": "
+                  << e.code().message() << "; check the path and its permissions\n";
+        return bad_input;
+    } catch (std::bad_alloc const&) {
+        std::cerr << name
+                  << ": the memory does not suffice; ask for less: fewer samples, a coarser "
+                     "accuracy, a shorter duration\n";
+        return bad_input;
+    } catch (std::exception const& e) {
+        std::cerr << name << ": internal error: " << text(e) << "\n";
+        return internal_error;
+    }
+}
+
+/// The value of an option that is a decimal number. @throws bad_request
+inline exact_decimal decimal_of(std::string const& text, std::string const& what) {
+    auto const value = exact_decimal::parse(text);
+    if (!value || !enclose(*value))
+        throw bad_request(what + ": " + in_quotes(text) + " is not a decimal number");
+    return *value;
+}
+/// And one above 0. @throws bad_request
+inline exact_decimal positive_decimal(std::string const& text, std::string const& what) {
+    auto const value = decimal_of(text, what);
+    if (!value.is_positive())
+        throw bad_request(what + ": " + in_quotes(text) + " is not a decimal number above 0");
+    return value;
+}
+
+/// Creates the folder for results.
+/// @throws output_error
+inline void prepare_folder(std::filesystem::path const& folder) {
+    if (folder.empty()) throw output_error("--out is empty: give a folder for the results");
+    std::error_code fault;
+    auto const name = printable_path(folder.string());
+    if (std::filesystem::exists(folder, fault) && !std::filesystem::is_directory(folder, fault))
+        throw output_error(name + " is a file; give a folder for the results");
+    fault.clear();
+    std::filesystem::create_directories(folder, fault);
+    if (fault || !std::filesystem::is_directory(folder))
+        throw output_error("the folder " + name + " cannot be created" +
+                           (fault ? ": " + fault.message() : std::string{}));
+}
+
+/// A number in a sentence, in the form that printf knows.
+inline std::string text_of(char const* format, double value) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+
+} // namespace sivid::app
+
+#endif

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// Commands, options, exit codes and files of a robot's program.
+#include "app/cup.hpp"
+
+#include "support/catch.hpp"
+#include "support/child_program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
+
+using namespace app_test;
+using support::text_of;
+
+namespace {
+
+nlohmann::json json_of(fs::path const& file) { return nlohmann::json::parse(text_of(file)); }
+
+std::set<std::string> files_in(fs::path const& folder) {
+    std::set<std::string> names;
+    for (auto const& f : fs::directory_iterator{folder}) names.insert(f.path().filename().string());
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("every command explains itself with an example") {
+    auto const all = run({"--help"});
+    CHECK(all.code == 0);
+    CHECK_THAT(all.out, ContainsSubstring("A cup of tea"));
+    for (std::string const command :
+         {"import", "simulate", "generate", "identify", "online", "check", "diagnose", "predict",
+          "verify", "control", "design", "rank", "report", "describe", "fleet"}) {
+        CAPTURE(command);
+        CHECK_THAT(all.out, ContainsSubstring(command));
+        auto const one = run({command, "--help"});
+        CHECK(one.code == 0);
+        CHECK_THAT(one.out, ContainsSubstring("Example: cup " + command));
+    }
+}
+
+TEST_CASE("a misspelt command, option or name is answered by the nearest one") {
+    served const s;
+    auto const refused = [&](std::vector<std::string> const& words, std::string const& message) {
+        auto const r = run(words);
+        CAPTURE(r.err, message);
+        CHECK(r.code == 2);
+        CHECK(r.out.empty());
+        CHECK_THAT(r.err, ContainsSubstring(message));
+        CHECK_FALSE(fs::exists(s.at("out")));
+    };
+    auto const out = s.at("out");
+    refused({"identfy", s.data(), "--out", out}, "Did you mean the command identify?");
+    refused({"fly"}, "");
+    refused({}, "subcommand");
+    refused({"identify", s.data(), "--otu", out}, "Did you mean --out?");
+    refused({"identify", s.data(), "--out", out, "--with", "draugth"}, "did you mean 'draught'?");
+    refused({"identify", s.data(), "--out", out, "--picture", "t"}, "unknown channel 't'");
+    refused({"simulate", "--scenario", "tee", "--out", out}, "did you mean 'tea'?");
+    refused({"simulate", "--scenario", "tea", "--out", out, "--set", "gian=2"},
+            "did you mean 'gain'?");
+    refused({"generate", "--scenario", "tea", "--absolute", "1", "--out", out, "--unknown", "gian"},
+            "did you mean 'gain'?");
+    refused({"describe", "--unknown", "gian"}, "did you mean 'gain'?");
+    refused({"identify", s.at("nowhere"), "--out", out}, "nowhere");
+    refused({"identify", s.data(), "--out", ""}, "--out is empty");
+    refused({"identify", s.data(), "--out", out, "--outliers", "many"}, "whole number or auto");
+    refused({"identify", s.data(), "--out", out, "--outliers", "99"}, "allow fewer");
+    refused({"identify", s.data(), "--out", out, "--budget", "nan"}, "nan is not a number");
+    refused({"rank", "--out", out}, "give a data set or --scenario");
+    refused({"rank", "--scenario", "tea", "--out", out}, "--measure");
+    refused({"fleet", "identify", s.data(), "--out", out, "--task", "3/2"}, "K from 1 to N");
+    refused({"check", s.at("nowhere")}, "nowhere");
+    refused({"report", s.data()}, "result.json");
+}
+
+TEST_CASE("from a scenario to a result, checked, shown anew and used") {
+    served const s;
+    CAPTURE(s.made.err);
+    REQUIRE(s.made.code == 0);
+    CHECK(files_in(s.data()) == std::set<std::string>{"dataset.json", "tea.inputs.csv",
+                                                      "tea.measurements.csv", "truth.json"});
+    auto const out = s.at("out");
+    auto const r = run({"identify", s.data(), "--out", out, "--quiet", "--budget", "20"});
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("consistent") && ContainsSubstring("k in ["));
+    for (auto const* name : {"report.html", "result.json", "boxes.csv", "outputs.csv"}) {
+        CAPTURE(name);
+        CHECK(fs::exists(fs::path{out} / name));
+    }
+    CHECK(json_of(fs::path{out} / "result.json")["verdict"] == "consistent");
+    CHECK(run({"check", out, "--all", "--quiet"}).code == 0);
+    CHECK(run({"check", out, "--sample", "0", "--quiet"}).code == 3); // nothing is looked at
+
+    SECTION("the page of a result is made anew, beside it or elsewhere") {
+        auto const again = run({"report", out, "--out", s.at("page"), "--quiet"});
+        CAPTURE(again.err);
+        CHECK(again.code == 0);
+        CHECK(files_in(s.at("page")) == std::set<std::string>{"report.html"});
+        auto const text = text_of(s.at("page") + "/report.html");
+        CHECK_THAT(text, ContainsSubstring("made anew from a stored result"));
+        fs::remove(fs::path{out} / "report.html");
+        CHECK(run({"report", out}).code == 0);
+        CHECK(fs::exists(fs::path{out} / "report.html"));
+        // Other data than those of the result are refused.
+        s.folder().write("data/tea.measurements.csv",
+                         text_of(s.data() + "/tea.measurements.csv") + "\n");
+        CHECK(run({"report", out}).code == 2);
+    }
+    SECTION("a file that is cut off is named") {
+        auto const whole = text_of(fs::path{out} / "result.json");
+        s.folder().write("out/result.json", whole.substr(0, whole.size() / 2));
+        for (std::vector<std::string> const& words : std::vector<std::vector<std::string>>{
+                 {"check", out},
+                 {"report", out},
+                 {"verify", out, "--scenario", "tea", "--require", "T > 0"}}) {
+            auto const cut = run(words);
+            CHECK(cut.code == 2);
+            CHECK_THAT(cut.err, ContainsSubstring("result.json"));
+        }
+    }
+    SECTION("the other commands take it") {
+        auto const asked = [&](std::vector<std::string> more) {
+            more.insert(more.begin() + 1, {out, "--scenario", "tea", "--quiet"});
+            return run(more).code;
+        };
+        CHECK(asked({"verify", "--require", "T at end in [0, 60]"}) == 0);
+        CHECK(asked({"verify", "--require", "T at end > 60"}) == 5);
+        CHECK(asked({"predict", "--out", s.at("predicted")}) == 0);
+        CHECK(fs::exists(s.at("predicted") + "/tubes.csv"));
+        CHECK(asked({"control", "--law", "h = K", "--gain", "K=0:9", "--require",
+                     "T at end in [0, 90]"}) == 0);
+        CHECK(asked({"design", "--vary", "h=0:9", "--halve", "k", "--share", "1", "--budget",
+                     "5"}) != 2);
+    }
+}
+
+TEST_CASE("online, outliers, effects, checkpoints: the same files as any result") {
+    served const s;
+    auto const out = s.at("out");
+    auto const online = run({"online", s.data(), "--out", out, "--quiet"});
+    CHECK(online.code == 0);
+    CHECK_THAT(online.out, ContainsSubstring("10 updates, the longest took"));
+    CHECK(run({"check", out, "--all", "--quiet"}).code == 0);
+    auto const auto_count =
+        run({"identify", s.data(), "--out", out, "--outliers", "auto", "--quiet"});
+    CHECK(auto_count.code == 0);
+    CHECK_THAT(auto_count.out, ContainsSubstring("outliers needed: 0"));
+    CHECK(run({"identify", s.data(), "--out", out, "--with", "draught", "--quiet", "--boxes", "50"})
+              .code == 0);
+    CHECK(json_of(fs::path{out} / "result.json")["effects"] == nlohmann::json{"draught"});
+    auto const stopped = run({"identify", s.data(), "--out", out, "--quiet", "--checkpoint", "0",
+                              "--accuracy", "1e-9", "--boxes", "30"});
+    CHECK(stopped.code != 2);
+    REQUIRE(fs::exists(fs::path{out} / "checkpoint.txt"));
+    CHECK(run({"identify", s.data(), "--out", out, "--quiet", "--checkpoint", "0"}).code == 2);
+    auto const more = run({"identify", s.data(), "--out", out, "--quiet", "--resume", "--accuracy",
+                           "1e-9", "--boxes", "60"});
+    CHECK(more.code != 2);
+    CHECK_THAT(more.out, ContainsSubstring("--resume"));
+}
+
+TEST_CASE("a diagnosis is written with its model, checked and shown anew") {
+    served const s;
+    auto const out = s.at("out");
+    auto const r = run({"diagnose", s.data(), "--out", out, "--quiet", "--budget", "20"});
+    CAPTURE(r.err);
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("gap none") && ContainsSubstring("ranges of all"));
+    CHECK(files_in(out) == std::set<std::string>{"diagnosis.json", "model", "report.html"});
+    CHECK(fs::exists(out + "/model/result.json"));
+    CHECK(run({"check", out, "--quiet"}).code == 0);
+    CHECK(run({"check", out + "/model", "--all", "--quiet"}).code == 0);
+    CHECK(run({"report", out, "--out", s.at("page")}).code == 0);
+    CHECK_THAT(text_of(s.at("page") + "/report.html"), ContainsSubstring("</html>"));
+}
+
+TEST_CASE("simulate, rank and describe work for any model") {
+    served const s;
+    auto const out = s.at("out");
+    CHECK(run({"simulate", "--scenario", "all", "--validated", "--set", "k=0.4:0.6", "--out", out})
+              .code == 0);
+    CHECK(files_in(out) ==
+          std::set<std::string>{"simulation.html", "tea.trajectory.csv", "tea.tube.csv"});
+    CHECK(run({"rank", s.data(), "--out", s.at("ranked"), "--quiet"}).code != 2);
+    auto const ranked = run(
+        {"rank", "--scenario", "tea", "--measure", "T=0.1", "--out", s.at("ranked"), "--quiet"});
+    CHECK(ranked.code == 0);
+    CHECK_THAT(ranked.out, ContainsSubstring("tea T: k"));
+    CHECK_THAT(run({"describe"}).out, StartsWith("model cup\n"));
+    CHECK_THAT(run({"describe", "--dot"}).out, StartsWith("digraph \"cup\""));
+}
+
+TEST_CASE("a table is imported, and a log that is none is refused whole") {
+    served const s;
+    s.folder().write("log.csv", "t,h,T\n0,2,60\n0.5,2,48\n1,2,38\n");
+    s.folder().write("mapping.json", R"({ "format": "sivid-mapping-1", "id": "tea", "model": "cup",
+        "parameters": { "k": { "prior": [0.2, 1], "unit": "1/s" } }, "max_outlier_fraction": 0,
+        "scenarios": [ { "name": "tea", "role": "fit", "file": "log.csv",
+          "time": { "column": "t", "unit": "s", "offset": 0 }, "interpolation": "hold",
+          "inputs": { "h": { "column": "h", "unit": "K/s" } },
+          "channels": { "T": { "column": "T", "unit": "K", "error": 2 } },
+          "initial": { "T": [59, 61] } } ] })");
+    auto const r = run({"import", s.at("mapping.json"), "--out", s.at("imported")});
+    CAPTURE(r.err);
+    CHECK(r.code == 0);
+    CHECK(fs::exists(s.at("imported") + "/dataset.json"));
+    CHECK(run({"identify", s.at("imported"), "--out", s.at("out"), "--quiet"}).code != 2);
+    s.folder().write("log.csv", "t,h,T\n0,2,60\n0.5,2\n");
+    CHECK(run({"import", s.at("mapping.json"), "--out", s.at("torn")}).code == 2);
+    CHECK_FALSE(fs::exists(s.at("torn")));
+}
+
+TEST_CASE("results that cannot be written are an error, and leave nothing half written") {
+    served const s;
+    for (std::vector<std::string> const& words : std::vector<std::vector<std::string>>{
+             {"identify", s.data(), "--quiet", "--budget", "2"},
+             {"diagnose", s.data(), "--quiet", "--budget", "1"},
+             {"simulate", "--scenario", "tea"},
+             {"generate", "--scenario", "tea", "--absolute", "1"}}) {
+        auto all = words;
+        all.insert(all.end(), {"--out", "/dev/full"});
+        auto const r = run(all);
+        CAPTURE(words.front(), r.err);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, ContainsSubstring("is a file"));
+        all.back() = s.at("log") + "/out";
+        s.folder().write("log", "a file");
+        CHECK(run(all).code == 2);
+    }
+}
+
+TEST_CASE("variants, own commands and the usual scenarios are of the robot") {
+    auto r = cup();
+    r.variants = {{"lid", "whether there is one", {"none", "on"}}};
+    std::vector<std::string> chosen;
+    r.variant = [&](std::vector<std::string> const& c) {
+        chosen = c;
+        return cup().model;
+    };
+    r.commands = {{"drink", "empties it", [](int argc, char**) { return 10 + argc; }}};
+    CHECK(run({"describe"}, r).code == 0);
+    CHECK(chosen == std::vector<std::string>{"none"});
+    CHECK(run({"describe", "--lid", "on"}, r).code == 0);
+    CHECK(chosen == std::vector<std::string>{"on"});
+    CHECK(run({"describe", "--lid", "off"}, r).code == 2);
+    CHECK(run({"drink", "up"}, r).code == 12);
+    CHECK_THAT(run({"--help"}, r).out, ContainsSubstring("empties it"));
+    r.scenarios.push_back(r.scenarios.front());
+    r.scenarios.back().name = "other";
+    r.scenarios.back().usual = false;
+    served const s;
+    CHECK(run({"simulate", "--scenario", "all", "--out", s.at("out")}, r).code == 0);
+    CHECK(files_in(s.at("out")).size() == 2);
+}
