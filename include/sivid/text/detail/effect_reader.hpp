@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -33,12 +35,20 @@ struct effect_text {
     std::vector<model_description::item> channels; ///< of the model
 
     void apply(effect_scope& scope, std::vector<statement> const& all, stage at) const {
+        std::map<std::string, formula_value> parts; // of its own
         named_values values(
             *source, *names,
             [&scope](std::string const& name, auto const&) { return scope.named(name); },
-            [&](formula::node const& n) { return own(scope, n, at); });
+            [&](formula::node const& n) -> std::optional<formula_value> {
+                auto const part = n.what == formula::kind::name ? parts.find(n.name) : parts.end();
+                return part != parts.end() ? part->second : own(scope, n, at);
+            });
         for (auto const& s : all) {
             unit in;
+            if (names_part(s, at)) {
+                parts[s.name] = values(s.by);
+                continue;
+            }
             auto& changed = target(scope, s, at, in);
             auto const what = s.name + (s.is_rate ? "'" : "");
             bool const factor = s.how == '*' || s.how == '/';
@@ -51,6 +61,14 @@ struct effect_text {
                                      : changed / by;
             values.forget();
         }
+    }
+
+    /// Whether a statement names a part of the effect's formulas, and changes nothing.
+    [[nodiscard]] bool names_part(statement const& s, stage at) const {
+        bool const changes =
+            at == stage::outputs && std::any_of(channels.begin(), channels.end(),
+                                                [&](auto const& y) { return y.name == s.name; });
+        return !s.is_rate && s.how == '=' && !changes && !names->items.contains(s.name);
     }
 
 private:
@@ -262,6 +280,15 @@ private:
                 source_->fail(constants->find(p.name)->key,
                               "'" + p.name + "' stands in no formula of the effect",
                               "use it, or leave it out");
+        using stage = effect_text::stage;
+        for (auto const& [list, at] : {std::pair{&text.inputs, stage::inputs},
+                                       {&text.rates, stage::rates},
+                                       {&text.outputs, stage::outputs}})
+            for (auto const& s : *list)
+                if (text.names_part(s, at) && !here.contains(s.name))
+                    source_->fail(s.position, "'" + s.name + "' stands in no formula of the effect",
+                                  at == stage::rates ? "a rate is changed as in w' += -k*w/J"
+                                                     : "use it, or leave it out");
     }
 
     /// One of `model/effects.hpp`.
