@@ -42,7 +42,8 @@ struct effect_text {
             [&](formula::node const& n) -> std::optional<formula_value> {
                 auto const part = n.what == formula::kind::name ? parts.find(n.name) : parts.end();
                 return part != parts.end() ? part->second : own(scope, n, at);
-            });
+            },
+            {}, own_names());
         for (auto const& s : all) {
             unit in;
             if (names_part(s, at)) {
@@ -74,6 +75,11 @@ struct effect_text {
 private:
     using kind = model_names::kind;
 
+    [[nodiscard]] std::vector<std::string> own_names() const {
+        std::vector<std::string> result;
+        for (auto const& p : parameters) result.push_back(p.name);
+        return result;
+    }
     [[nodiscard]] std::optional<formula_value> own(effect_scope& scope, formula::node const& n,
                                                    stage at) const {
         if (n.what == formula::kind::shown && at == stage::outputs) {
@@ -154,18 +160,21 @@ public:
             auto const of = all.within(e);
             require_name(e.name, e.key);
             result.push_back(of.find("kind") != nullptr ? ready_made(of, e) : own(of, e));
-            try {
-                (void)with(*model_, {result.back()});
-            } catch (model_text_error const&) {
-                throw;
-            } catch (std::exception const& error) {
-                source_->fail(e.key, error.what(), "correct this effect");
-            }
         }
         return result;
     }
 
 private:
+    /// Joins the effect to the model: all of its formulas are evaluated.
+    void try_out(effect const& one, std::size_t position) const {
+        try {
+            (void)with(*model_, {one});
+        } catch (model_text_error const&) {
+            throw;
+        } catch (std::exception const& error) {
+            source_->fail(position, error.what(), "correct this effect");
+        }
+    }
     void require_name(std::string const& name, std::size_t position) const {
         bool const plain =
             !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
@@ -207,8 +216,9 @@ private:
         if (std::all_of(all.begin(), all.end(), [](auto const* s) { return s->empty(); }))
             source_->fail(e.key, "the effect changes nothing",
                           "add equations = \"w' += -k*w/J\", inputs = or outputs =");
-        require_used(of, *text, all);
         set_edits(result, text);
+        try_out(result, e.key);
+        require_used(of, *text, all);
         return result;
     }
     static void set_edits(effect& e, std::shared_ptr<effect_text const> const& text) {
@@ -332,6 +342,7 @@ private:
         }
         auto result = made(*found, r, e.key);
         if (auto const about = of.text("about")) result.about = *about;
+        try_out(result, e.key);
         return result;
     }
     [[nodiscard]] effect made(effect_kind const& k, effect_request const& r,

@@ -91,7 +91,8 @@ public:
             for (char const how : {'+', '-', '*', '/'})
                 if (words_.take(std::string{how, '='})) s.how = how;
             if (s.how == '=')
-                words_.need("=", "write an equation as in w' = -b*w/J, and * for products");
+                words_.need("=", "write an equation as in w' = -b*w/J, * for products, and units "
+                                 "of numbers in brackets: 9.81 [m/s^2]");
             s.by = next();
             result.push_back(std::move(s));
         }

@@ -78,12 +78,15 @@ public:
     /// What only this stage knows, by its node; nothing: it is none of this.
     using further = std::function<std::optional<formula_value>(formula::node const&)>;
 
+    /// @param also  names that `own` knows, for messages
     named_values(model_source const& source, model_names const& names, leaf leaves,
-                 further own = {}, formula_evaluator::partial tell = {})
+                 further own = {}, formula_evaluator::partial tell = {},
+                 std::vector<std::string> also = {})
         : source_(&source),
           names_(&names),
           leaves_(std::move(leaves)),
           own_(std::move(own)),
+          also_(std::move(also)),
           evaluate_(
               source, [this](formula::node const& n) { return value_of(n); }, std::move(tell)) {}
     named_values(named_values const&) = delete;
@@ -132,9 +135,11 @@ private:
                           "write its formula: name it as a part, and use that twice");
         if (n.name == "pi") return {4 * atan(expression(1))};
         auto const found = names_->items.find(n.name);
-        if (found == names_->items.end())
-            source_->fail(n.begin, "unknown name '" + n.name + "'",
-                          nearest_name(n.name, names_->all()));
+        if (found == names_->items.end()) {
+            auto known = names_->all();
+            known.insert(known.begin(), also_.begin(), also_.end());
+            source_->fail(n.begin, "unknown name '" + n.name + "'", nearest_name(n.name, known));
+        }
         auto const& item = found->second;
         if (item.what == kind::part) return part(item.index, n.begin);
         return {leaves_(n.name, item), item.in};
@@ -144,6 +149,7 @@ private:
     model_names const* names_;
     leaf leaves_;
     further own_;
+    std::vector<std::string> also_;
     formula_evaluator evaluate_;
     std::map<std::size_t, formula_value> parts_;
     std::set<std::size_t> open_;

@@ -127,7 +127,8 @@ private:
             }
             if (!range.is_range) range.lower = -magnitude(range.upper);
             if (!range.is_range) range.upper = magnitude(range.upper);
-            auto const bounds = converted(range, s.unit, "the state '" + e.name + "'");
+            auto const bounds =
+                converted(range, s.unit, "the state '" + e.name + "'").enclosure;
             s.limit = {bounds.lower(), bounds.upper()};
             names_->declare(*source_, e.name,
                             {kind::state, unit(s.unit), about().states.size(), e.key});
@@ -197,11 +198,9 @@ private:
             value = range;
             value->lower = value->upper = (range->lower + range->upper).times(half);
         }
-        c.nominal.enclosure = converted(*value, unit_text, what);
-        bool const plain = !value->in || *value->in == unit(unit_text);
-        c.nominal.nearest = plain ? *nearest(value->lower) : mid(c.nominal.enclosure);
+        c.nominal = converted(*value, unit_text, what);
         if (range) {
-            auto const bounds = converted(*range, unit_text, what);
+            auto const bounds = converted(*range, unit_text, what).enclosure;
             if (!(bounds.lower() <= c.nominal.nearest && c.nominal.nearest <= bounds.upper()))
                 source_->fail(value->position, "the value is outside the prior",
                               "correct one of them");
@@ -212,8 +211,8 @@ private:
                         {kind::constant, unit(unit_text), about().constants.size(), e.key});
         about().constants.push_back(std::move(c));
     }
-    /// A stated quantity in a unit, rounded outward.
-    [[nodiscard]] interval converted(stated_quantity const& q, std::string const& to,
+    /// A stated quantity in a unit: its bounds rounded outward, and its middle.
+    [[nodiscard]] literal converted(stated_quantity const& q, std::string const& to,
                                      std::string const& what) const {
         auto const ratio = q.in ? q.in->in(unit(to)) : unit::ratio{};
         auto const c = ratio ? unit_conversion::of(*ratio) : std::nullopt;
@@ -223,14 +222,16 @@ private:
                               unit_words(*q.in),
                           "write it in another unit");
         auto const r = (*c)(q.lower, q.upper);
-        auto const bounds =
-            ratio->is_one() || !r ? enclose(q.lower, q.upper)
-                                  : enclose(r->value - r->rounding, r->value + r->rounding);
-        if (!ratio->is_one() && !r)
-            source_->fail(q.position, "the number is beyond all doubles", "use another unit");
+        bool const as_it_is = ratio->is_one();
+        auto const bounds = as_it_is ? enclose(q.lower, q.upper)
+                            : r      ? enclose(r->value - r->rounding, r->value + r->rounding)
+                                     : std::nullopt;
         if (!bounds)
             source_->fail(q.position, "the number is beyond all doubles", "use another unit");
-        return *bounds;
+        auto const middle = q.is_range ? std::optional(mid(*bounds))
+                            : as_it_is ? nearest(q.lower)
+                                       : nearest(r->value);
+        return {*bounds, middle.value_or(mid(*bounds))};
     }
 
     void read_parts() {

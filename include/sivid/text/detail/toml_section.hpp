@@ -20,6 +20,47 @@
 
 namespace sivid::text_detail {
 
+/// Refuses a table without a name, "[.]" or "[": toml++ 3.3 takes for granted that one begins
+/// there. Up to the first fault of the file its strings, comments and brackets are those of TOML;
+/// behind it nothing is read.
+inline void require_named_tables(model_source const& source) {
+    auto const text = source.text();
+    auto const behind = [&](std::size_t at, std::string_view blank) {
+        return std::min(text.find_first_not_of(blank, at), text.size());
+    };
+    auto const begins_name = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '-' || c == '"' || c == '\'' || c == ']';
+    };
+    std::size_t depth = 0;
+    for (std::size_t at = behind(0, " \t\n"), line = at; at < text.size(); ++at) {
+        char const c = text[at];
+        if (c == '#') {
+            at = std::min(text.find('\n', at), text.size()) - 1;
+        } else if (c == '"' || c == '\'') {
+            auto const open = text.substr(at, 3);
+            bool const is_long = open == std::string(3, c);
+            auto end = at + (is_long ? 3 : 1);
+            auto const close = open.substr(0, end - at);
+            while (end < text.size() && text.substr(end, close.size()) != close)
+                end += c == '"' && text[end] == '\\' ? 2 : 1;
+            at = end + close.size() - 1;
+        } else if (c == '\n') {
+            line = behind(at, " \t\n");
+        } else if (c == '[') {
+            if (at == line && depth == 0) {
+                auto const name = behind(at + (text.substr(at, 2) == "[[" ? 2 : 1), " \t");
+                if (name == text.size() || !begins_name(text[name]))
+                    source.fail(name, "the name of a table is needed here",
+                                "write one as in [states]");
+            }
+            ++depth;
+        } else if (c == ']' && depth > 0) {
+            --depth;
+        }
+    }
+}
+
 /// The content of a string as it stands in the source.
 struct source_slice {
     std::size_t begin = 0, end = 0;
