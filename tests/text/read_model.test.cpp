@@ -188,7 +188,8 @@ TEST_CASE("an enclosure of the hovercraft as text has the bits of that of the fu
 }
 
 TEST_CASE("logistic growth as text is identified as its functor is") {
-    auto const text = read_example("first_steps/logistic_growth.toml");
+    std::string const file = SIVID_SOURCE_DIR "/examples/first_steps/logistic_growth.toml";
+    auto const text = sivid::read_model(file);
     require_same(text.model, record_model(logistic_growth{}));
     CHECK(text.parameters().unknown == std::vector<std::string>{"r", "K"});
     CHECK(same(text.prior, box({hull(0.1_dec, 3_dec), hull(0.5_dec, 2_dec)})));
@@ -224,6 +225,27 @@ TEST_CASE("the hovercraft as text is identified as its functor is") {
     auto const b = identified(record_model(hovercraft{}));
     CHECK(a.verdict == b.verdict);
     CHECK(same(a.hull, b.hull));
+}
+
+TEST_CASE("a model is read and identified in two lines") {
+    std::string const file = SIVID_SOURCE_DIR "/examples/first_steps/logistic_growth.toml";
+    experiment culture;
+    culture.initial = {hull(0.10_dec, 0.12_dec)};
+    culture.measurements = {{1, 0, hull(0.24_dec, 0.29_dec)}, {4, 0, hull(0.89_dec, 0.96_dec)}};
+    auto const text = sivid::read_model(file);
+    auto const found = sivid::identify({text.model, text.parameters(), text.prior, {culture}});
+    CHECK(found.verdict == verdict::consistent);
+}
+
+TEST_CASE("a text with all that the format has is read") {
+    auto const text = read_model(SIVID_SOURCE_DIR "/tests/text/everything.toml");
+    CHECK(text.model.about.states.size() == 6);
+    CHECK(text.effects.size() == 7);
+    CHECK(text.model.channel_delays.size() == 1);
+    CHECK(text.unknown == std::vector<std::string>{"J", "b"});
+    auto const all = with(text.model, text.effects);
+    CHECK(all.about.states.size() == 7); // the lag's
+    CHECK(all.about.constants.size() == text.model.about.constants.size() + 8);
 }
 
 TEST_CASE("units of a text are converted exactly") {

@@ -62,8 +62,8 @@ inline std::string with(std::string text, std::string const& part, std::string c
     return text.replace(at, part.size(), by);
 }
 
-inline std::string of_example(std::string const& name) {
-    std::ifstream in(std::string(SIVID_SOURCE_DIR "/examples/") + name, std::ios::binary);
+inline std::string of_file(std::string const& name) {
+    std::ifstream in(std::string(SIVID_SOURCE_DIR "/") + name, std::ios::binary);
     return {std::istreambuf_iterator<char>{in}, {}};
 }
 

@@ -20,46 +20,67 @@
 
 namespace sivid::text_detail {
 
-/// Refuses a table without a name, "[.]" or "[": toml++ 3.3 takes for granted that one begins
-/// there. Up to the first fault of the file its strings, comments and brackets are those of TOML;
-/// behind it nothing is read.
-inline void require_named_tables(model_source const& source) {
-    auto const text = source.text();
-    auto const behind = [&](std::size_t at, std::string_view blank) {
-        return std::min(text.find_first_not_of(blank, at), text.size());
-    };
-    auto const begins_name = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               c == '_' || c == '-' || c == '"' || c == '\'' || c == ']';
-    };
-    std::size_t depth = 0;
-    for (std::size_t at = behind(0, " \t\n"), line = at; at < text.size(); ++at) {
-        char const c = text[at];
-        if (c == '#') {
-            at = std::min(text.find('\n', at), text.size()) - 1;
-        } else if (c == '"' || c == '\'') {
-            auto const open = text.substr(at, 3);
-            bool const is_long = open == std::string(3, c);
-            auto end = at + (is_long ? 3 : 1);
-            auto const close = open.substr(0, end - at);
-            while (end < text.size() && text.substr(end, close.size()) != close)
-                end += c == '"' && text[end] == '\\' ? 2 : 1;
-            at = end + close.size() - 1;
-        } else if (c == '\n') {
-            line = behind(at, " \t\n");
-        } else if (c == '[') {
-            if (at == line && depth == 0) {
-                auto const name = behind(at + (text.substr(at, 2) == "[[" ? 2 : 1), " \t");
-                if (name == text.size() || !begins_name(text[name]))
-                    source.fail(name, "the name of a table is needed here",
-                                "write one as in [states]");
-            }
-            ++depth;
-        } else if (c == ']' && depth > 0) {
-            --depth;
+/// Refuses what toml++ 3.3 takes for granted that it is not there: a table without a name, "[.]",
+/// and brackets that do not match, "[}".
+///   Up to the first fault of a file its strings, comments and brackets are those of TOML; behind
+/// it toml++ reads nothing.
+class toml_precheck {
+public:
+    explicit toml_precheck(model_source const& source) : source_(&source), text_(source.text()) {}
+
+    void operator()() {
+        line_ = behind(0, " \t\n");
+        for (std::size_t at = line_; at < text_.size(); ++at) {
+            char const c = text_[at];
+            if (c == '#')
+                at = std::min(text_.find('\n', at), text_.size()) - 1;
+            else if (c == '"' || c == '\'')
+                at = end_of_string(at);
+            else if (c == '\n')
+                line_ = behind(at, " \t\n");
+            else if (c == '[' || c == '{')
+                open(at);
+            else if (c == ']' || c == '}')
+                close(at);
         }
     }
-}
+
+private:
+    [[nodiscard]] std::size_t behind(std::size_t at, std::string_view blank) const {
+        return std::min(text_.find_first_not_of(blank, at), text_.size());
+    }
+    /// Of its last quotation mark.
+    [[nodiscard]] std::size_t end_of_string(std::size_t at) const {
+        char const c = text_[at];
+        std::string const three(3, c);
+        std::string const mark = text_.substr(at, 3) == three ? three : std::string(1, c);
+        auto end = at + mark.size();
+        while (end < text_.size() && text_.substr(end, mark.size()) != mark)
+            end += c == '"' && text_[end] == '\\' ? 2 : 1;
+        return end + mark.size() - 1;
+    }
+    void open(std::size_t at) {
+        if (at == line_ && open_.empty() && text_[at] == '[') {
+            auto const name = behind(at + (text_.substr(at, 2) == "[[" ? 2 : 1), " \t");
+            static constexpr std::string_view may_begin =
+                "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-\"']";
+            if (name == text_.size() || may_begin.find(text_[name]) == std::string_view::npos)
+                source_->fail(name, "the name of a table is needed here",
+                              "write one as in [states]");
+        }
+        open_ += text_[at] == '[' ? ']' : '}';
+    }
+    void close(std::size_t at) {
+        if (open_.empty() || open_.back() != text_[at])
+            source_->fail(at, "this bracket closes what is not open", "correct the brackets");
+        open_.pop_back();
+    }
+
+    model_source const* source_;
+    std::string_view text_;
+    std::size_t line_ = 0; ///< where the first word of the line begins
+    std::string open_;     ///< the brackets that will close
+};
 
 /// The content of a string as it stands in the source.
 struct source_slice {

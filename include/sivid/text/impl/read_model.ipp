@@ -22,7 +22,7 @@ namespace sivid {
 SIVID_DECL text_model model_from_text(std::string text, std::string const& name) {
     using namespace text_detail;
     auto const source = std::make_shared<model_source const>(name, std::move(text));
-    require_named_tables(*source);
+    toml_precheck{*source}();
     toml::table table;
     try {
         table = toml::parse(source->text());
