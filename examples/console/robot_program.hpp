@@ -42,23 +42,25 @@ namespace console {
 /// model.html and model.json; with its boxes in the folder model, for predict, verify, control.
 /// @param effects  joined to the data set's model
 /// @param data     what it was identified from
+/// @returns  what is proved of the whole prior; `undecided` where nothing was tried, too
 /// @throws sivid::output_error
-inline void write_identified_model(sivid::identification_problem const& problem,
-                                   std::vector<sivid::effect> const& effects,
-                                   sivid::dataset const& data, std::filesystem::path const& folder,
-                                   std::filesystem::path const& out, double seconds,
-                                   std::string const& command, progress_line& progress,
-                                   bool verbose) {
+inline sivid::verdict write_identified_model(sivid::identification_problem const& problem,
+                                             std::vector<sivid::effect> const& effects,
+                                             sivid::dataset const& data,
+                                             std::filesystem::path const& folder,
+                                             std::filesystem::path const& out, double seconds,
+                                             std::string const& command, progress_line& progress,
+                                             bool verbose) {
     namespace report = sivid::report;
     if (problem.model.has_memory()) {
         std::cout << "  ranges of its parameters: not proved, the model has a delay, a play or a "
                      "rate limit\n";
-        return;
+        return sivid::verdict::undecided;
     }
     if (sivid::starts_follow_parameters(problem)) {
         std::cout << "  ranges of its parameters: not proved, the effects begin where their "
                      "parameters say\n";
-        return;
+        return sivid::verdict::undecided;
     }
     std::vector<std::string> names;
     for (auto const& e : effects) names.push_back(e.name);
@@ -111,6 +113,7 @@ inline void write_identified_model(sivid::identification_problem const& problem,
     result.commit();
     std::cout << "  written: " << (out / "model.html").string() << " and model.json; "
               << (out / "model").string() << " for predict, verify, control\n";
+    return found.verdict;
 }
 
 /// Reads a data set of `model`, says whether the model explains it and what is missing if not, and
@@ -155,8 +158,8 @@ inline int diagnose_folder(sivid::recorded_model const& model,
     if (explained && left() > 0 && !interrupted()) {
         auto const& answer = run.candidates[run.answer];
         auto const effects = sivid::holdout::effects_of(answer, run.catalogue);
-        write_identified_model(answer.problem, effects, data, folder, out,
-                               std::min(left(), 0.25 * budget), command, progress, verbose);
+        (void)write_identified_model(answer.problem, effects, data, folder, out,
+                                     std::min(left(), 0.25 * budget), command, progress, verbose);
     }
     return exit_code_of(run.result);
 }
@@ -203,43 +206,48 @@ inline int rank_folder(std::string const& name, sivid::recorded_model const& mod
     return run_rank(sivid::problem_from_dataset(data, model), c);
 }
 
-/// `main` of such a program.
+/// `main` of such a program, for a model that is recorded already, inside `guarded`.
 /// @param about      what the program does, for --help
-/// @param model      a functor with names, rate and observe
-/// @param catalogue  effects that may be missing in it
+/// @param catalogue  effects that may be missing in the model
+inline int recorded_robot_program(std::string const& name, std::string const& about,
+                                  sivid::recorded_model const& model,
+                                  std::vector<sivid::effect> const& catalogue, int argc,
+                                  char** argv) {
+    std::string const first = argc > 1 ? argv[1] : "";
+    for (auto const& [word, what] :
+         {std::pair("predict", decision::predict), std::pair("verify", decision::verify),
+          std::pair("control", decision::control), std::pair("design", decision::design)}) {
+        if (first == word) return decide_by_result(name, model, catalogue, what, argc, argv);
+    }
+    if (first == "rank") return rank_folder(name, model, argc, argv);
+    std::filesystem::path folder, out;
+    double budget = 60;
+    bool quiet = false, verbose = false;
+    CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ..., control "
+                         "OUT/model ..., design OUT/model ...; and: rank FOLDER ... (--help)"};
+    app.add_option("folder", folder, "folder with dataset.json")->required();
+    app.add_option("--out", out, "folder for report.html, model.html and JSON files")->required();
+    app.add_option("--budget", budget, "seconds; it ends earlier when nothing is left to do")
+        ->check(number_between(0.0, 1e9))
+        ->capture_default_str();
+    app.add_flag("--quiet", quiet, "no progress");
+    app.add_flag("--verbose", verbose, "what was tried to bound the parameters, and why");
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::ParseError const& e) {
+        return app.exit(e) == 0 ? 0 : static_cast<int>(bad_input);
+    }
+    return diagnose_folder(model, catalogue, folder, out, budget, command_line(name, argc, argv),
+                           quiet, verbose);
+}
+
+/// The same for a functor with names, rate and observe.
 template <class Model>
 int robot_program(std::string const& name, std::string const& about, Model const& model,
                   std::vector<sivid::effect> const& catalogue, int argc, char** argv) {
     return guarded(name, [&] {
-        std::string const first = argc > 1 ? argv[1] : "";
-        for (auto const& [word, what] :
-             {std::pair("predict", decision::predict), std::pair("verify", decision::verify),
-              std::pair("control", decision::control), std::pair("design", decision::design)}) {
-            if (first == word)
-                return decide_by_result(name, sivid::record_model(model), catalogue, what, argc,
-                                        argv);
-        }
-        if (first == "rank") return rank_folder(name, sivid::record_model(model), argc, argv);
-        std::filesystem::path folder, out;
-        double budget = 60;
-        bool quiet = false, verbose = false;
-        CLI::App app{about + "\n\nThen: predict OUT/model ..., verify OUT/model ..., control "
-                             "OUT/model ..., design OUT/model ...; and: rank FOLDER ... (--help)"};
-        app.add_option("folder", folder, "folder with dataset.json")->required();
-        app.add_option("--out", out, "folder for report.html, model.html and JSON files")
-            ->required();
-        app.add_option("--budget", budget, "seconds; it ends earlier when nothing is left to do")
-            ->check(number_between(0.0, 1e9))
-            ->capture_default_str();
-        app.add_flag("--quiet", quiet, "no progress");
-        app.add_flag("--verbose", verbose, "what was tried to bound the parameters, and why");
-        try {
-            app.parse(argc, argv);
-        } catch (CLI::ParseError const& e) {
-            return app.exit(e) == 0 ? 0 : static_cast<int>(bad_input);
-        }
-        return diagnose_folder(sivid::record_model(model), catalogue, folder, out, budget,
-                               command_line(name, argc, argv), quiet, verbose);
+        return recorded_robot_program(name, about, sivid::record_model(model), catalogue, argc,
+                                      argv);
     });
 }
 

@@ -54,7 +54,8 @@ TEST_CASE("names that are wrong are told") {
     says("theta' = w", "theta' = w\nw' = 0", 8, 1, "a second equation for w'");
     says("theta' = w\n", "", 11, 1, "the state 'theta' has no equation");
     says("theta' = w", "thta' = w", 7, 1, "'thta' is no state; did you mean 'theta'?");
-    says("load = c*sign(w)", "load = c*sign(w)\nmore = less\nless = more", 7, 8, "defined by itself");
+    says("load = c*sign(w)", "load = c*sign(w)\nmore = less\nless = more", 7, 8,
+         "defined by itself");
     says("R = \"0.5", "R = 3\nR = \"0.5", 22, 5, "cannot redefine");
     says("R = \"0.5", "Q = 3\nR = \"0.5", 21, 1, "'Q' stands in no formula");
     says("kt = \"", "t = 3\nkt = \"", 18, 1, "'t' has a meaning of its own");
@@ -153,7 +154,8 @@ TEST_CASE("damage makes a text that is read, or refused at a place") {
     auto const below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
     std::string const signs = "\"'[]{}()=+-*/^.,;#\n 0123456789eEabwkt_\\\xC3\xA9";
     std::size_t refused = 0, read = 0;
-    for (auto const& whole : {texts::motor, texts::of_file("examples/hovercraft/hovercraft.toml")}) {
+    for (auto const& whole :
+         {texts::motor, texts::of_file("examples/hovercraft/hovercraft.toml")}) {
         REQUIRE(whole.size() > 100);
         for (int k = 0; k < 1500; ++k) {
             auto text = whole;

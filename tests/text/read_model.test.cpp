@@ -259,12 +259,10 @@ TEST_CASE("units of a text are converted exactly") {
 
     double const w = 100, theta = 2, i = 3, u = 12;
     auto const found = values(text.model, {w, theta, i}, {u});
-    std::vector<double> const wanted{(0.05 * i - 1e-4 * w - 0.02) / 1.25e-3,
-                                     w,
-                                     (u - 0.5 * i - 0.05 * w) / 1e-3,
-                                     w * 30 / std::numbers::pi,
-                                     theta * 180 / std::numbers::pi,
-                                     i};
+    std::vector<double> const wanted{
+        (0.05 * i - 1e-4 * w - 0.02) / 1.25e-3, w,
+        (u - 0.5 * i - 0.05 * w) / 1e-3,        w * 30 / std::numbers::pi,
+        theta * 180 / std::numbers::pi,         i};
     REQUIRE(found.size() == wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k)
         CHECK(std::abs(found[k] - wanted[k]) <= 1e-12 * std::abs(wanted[k]));
@@ -286,7 +284,8 @@ TEST_CASE("formulas of a text mean what they mean in C++") {
     auto const value = [](std::string const& formula) {
         auto const text = model_from_text(
             "format = \"sivid-model-1\"\nname = \"m\"\n[states]\nx = 10\ny = 10\n[equations]\n"
-            "x = \"(" + formula + ") * 1 [1/s]\"\ny = \"y * 1 [Hz]\"\n[outputs]\nx = \"x\"\n",
+            "x = \"(" +
+                formula + ") * 1 [1/s]\"\ny = \"y * 1 [Hz]\"\n[outputs]\nx = \"x\"\n",
             "m.toml");
         return values(text.model, {0.5, -2}, {})[0];
     };

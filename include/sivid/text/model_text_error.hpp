@@ -32,8 +32,8 @@ public:
         std::string_view rest = shown;
         auto column = place.column - 1;
         for (; column > most; --column) drop_first(rest);
-        whole_ += "\n    " + printable_text(rest, most + 30) + "\n    " +
-                  std::string(column, ' ') + "^";
+        whole_ +=
+            "\n    " + printable_text(rest, most + 30) + "\n    " + std::string(column, ' ') + "^";
     }
     [[nodiscard]] char const* what() const noexcept override { return whole_.c_str(); }
 

@@ -21,8 +21,8 @@ namespace sivid {
 /// A model that a file in the format sivid-model-1 (docs/formats.md) states, with all that
 /// `identify` and `diagnose` ask for beside the data.
 struct text_model {
-    std::string about;     ///< what the file says of it, in a sentence or none
-    recorded_model model;  ///< as `record_model` of a functor gives it
+    std::string about;                ///< what the file says of it, in a sentence or none
+    recorded_model model;             ///< as `record_model` of a functor gives it
     std::vector<std::string> unknown; ///< the constants that have a prior, in the file's order
     box prior;                        ///< theirs, in the units of the constants
     std::vector<effect> effects;      ///< what the model may leave out, in the file's order

@@ -42,8 +42,7 @@ public:
 
     [[nodiscard]] expression read() {
         auto const result = product();
-        if (!words_.at_end())
-            words_.fail("'*' or '/' is needed here", "a sum stands in brackets");
+        if (!words_.at_end()) words_.fail("'*' or '/' is needed here", "a sum stands in brackets");
         return result;
     }
 

@@ -78,7 +78,9 @@ struct fault_name {
             fail(count == 1 ? "one channel is needed"
                             : std::to_string(count) + " names are needed");
     }
-    [[nodiscard]] effects::range either_way() const { return {-kept_decimal(size), kept_decimal(size)}; }
+    [[nodiscard]] effects::range either_way() const {
+        return {-kept_decimal(size), kept_decimal(size)};
+    }
     [[nodiscard]] effects::range from(char const* power_of_ten) const {
         return {kept_decimal(size + power_of_ten), kept_decimal(size)};
     }

@@ -18,8 +18,8 @@ struct effect_request {
     std::vector<std::string> of; ///< inputs, states, constants or channels
     std::string unit;            ///< of its size
     effects::range prior{};
-    double limit = 0;     ///< of lags
-    bool rests = false;   ///< likewise
+    double limit = 0;       ///< of lags
+    bool rests = false;     ///< likewise
     decimal smooth_below{}; ///< of dry friction
 };
 
@@ -32,7 +32,7 @@ struct effect_kind {
     target on;
     size in;
     effect (*make)(effect_request const&);
-    std::size_t outputs = 1;   ///< so many it acts on; 0: any number
+    std::size_t outputs = 1;    ///< so many it acts on; 0: any number
     char const* more = nullptr; ///< a further key that it needs
 };
 
@@ -53,10 +53,8 @@ struct effect_kind {
         {"input_rate_limit", on::input, in::rate_of_x,
          [](r e) { return any::input_rate_limit(e.name, e.of[0], e.unit, e.prior); }},
         {"input_lag", on::input, in::time,
-         [](r e) {
-             return any::input_lag(e.name, e.of[0], e.unit, e.prior, e.limit, e.rests);
-         },
-         1, "limit"},
+         [](r e) { return any::input_lag(e.name, e.of[0], e.unit, e.prior, e.limit, e.rests); }, 1,
+         "limit"},
         {"input_saturation", on::input, in::as_x,
          [](r e) { return any::input_saturation(e.name, e.of[0], e.unit, e.prior); }},
         {"input_trim", on::input, in::as_x,
@@ -70,8 +68,8 @@ struct effect_kind {
         {"quadratic_damping", on::state, in::per_x_time,
          [](r e) { return any::quadratic_damping(e.name, e.of[0], e.unit, e.prior); }},
         {"dry_friction", on::state, in::rate_of_x,
-         [](r e) { return any::dry_friction(e.name, e.of[0], e.unit, e.prior, e.smooth_below); },
-         1, "smooth_below"},
+         [](r e) { return any::dry_friction(e.name, e.of[0], e.unit, e.prior, e.smooth_below); }, 1,
+         "smooth_below"},
         {"drift", on::constant, in::per_time,
          [](r e) { return any::drift(e.name, e.of[0], e.prior); }},
         {"sensor_bias", on::output, in::as_x,

@@ -53,8 +53,8 @@ struct effect_text {
             auto& changed = target(scope, s, at, in);
             auto const what = s.name + (s.is_rate ? "'" : "");
             bool const factor = s.how == '*' || s.how == '/';
-            auto const by = values.fitted(s.by, factor ? unit() : in,
-                                          factor ? "a factor of " + what : what);
+            auto const by =
+                values.fitted(s.by, factor ? unit() : in, factor ? "a factor of " + what : what);
             changed = s.how == '='   ? by
                       : s.how == '+' ? changed + by
                       : s.how == '-' ? changed - by
@@ -176,16 +176,16 @@ private:
         }
     }
     void require_name(std::string const& name, std::size_t position) const {
-        bool const plain =
-            !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-                return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                       (c >= '0' && c <= '9') || c == '_';
-            });
+        bool const plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                   c == '_';
+        });
         auto const& inputs = model_->about.inputs;
         if (!plain)
             source_->fail(position, "an effect's name has letters, digits and _",
                           "give another name");
-        if (std::any_of(inputs.begin(), inputs.end(), [&](auto const& u) { return u.name == name; }))
+        if (std::any_of(inputs.begin(), inputs.end(),
+                        [&](auto const& u) { return u.name == name; }))
             source_->fail(position, "an input is called so, too", "give the effect another name");
     }
     [[nodiscard]] static decimal kept(exact_decimal const& x) {
@@ -245,8 +245,7 @@ private:
                 fields.allow({"prior", "neutral"});
                 auto const* p = fields.find("prior");
                 if (p == nullptr)
-                    source_->fail(c.value, "the constant has no prior",
-                                  "add prior = \"[0, 1] N\"");
+                    source_->fail(c.value, "the constant has no prior", "add prior = \"[0, 1] N\"");
                 prior = fields.quantity(*p);
                 if (auto const* n = fields.find("neutral")) {
                     neutral = fields.quantity(*n);
@@ -261,9 +260,9 @@ private:
                 source_->fail(at, "the neutral value is one number in the unit of the prior",
                               "write it as in \"0.5 N\"");
             if (neutral.lower < prior.lower || prior.upper < neutral.lower)
-                source_->fail(at, "the prior does not contain the neutral value, " +
-                                      neutral.lower.text(),
-                              "correct the prior, or add neutral = ...");
+                source_->fail(
+                    at, "the prior does not contain the neutral value, " + neutral.lower.text(),
+                    "correct the prior, or add neutral = ...");
             if (names_->items.contains(c.name))
                 source_->fail(c.key, "the model has a '" + c.name + "', too",
                               "give the effect's constant another name");
@@ -365,10 +364,11 @@ private:
                                               std::vector<std::string> const& of,
                                               std::size_t position) const {
         if (k.outputs == 0 ? of.empty() : of.size() != k.outputs)
-            source_->fail(position, std::string(k.name) + " acts on " +
-                                        (k.outputs == 0   ? "one output or more"
-                                         : k.outputs == 1 ? "one thing"
-                                                          : "two outputs"),
+            source_->fail(position,
+                          std::string(k.name) + " acts on " +
+                              (k.outputs == 0   ? "one output or more"
+                               : k.outputs == 1 ? "one thing"
+                                                : "two outputs"),
                           "correct this list");
         auto const& about = model_->about;
         auto const unit_in = [&](auto const& items, char const* kind) {

@@ -127,8 +127,7 @@ private:
             }
             if (!range.is_range) range.lower = -magnitude(range.upper);
             if (!range.is_range) range.upper = magnitude(range.upper);
-            auto const bounds =
-                converted(range, s.unit, "the state '" + e.name + "'").enclosure;
+            auto const bounds = converted(range, s.unit, "the state '" + e.name + "'").enclosure;
             s.limit = {bounds.lower(), bounds.upper()};
             names_->declare(*source_, e.name,
                             {kind::state, unit(s.unit), about().states.size(), e.key});
@@ -145,8 +144,8 @@ private:
                 of.allow({"unit", "delay"});
                 u.unit = stated_unit(of).value_or("1");
                 if (auto const* d = of.find("delay"))
-                    delays_.push_back({about().inputs.size(), false, std::string(of.string_of(*d)),
-                                       d->value});
+                    delays_.push_back(
+                        {about().inputs.size(), false, std::string(of.string_of(*d)), d->value});
             } else {
                 u.unit = inputs->string_of(e);
                 (void)unit_in(e, u.unit);
@@ -213,7 +212,7 @@ private:
     }
     /// A stated quantity in a unit: its bounds rounded outward, and its middle.
     [[nodiscard]] literal converted(stated_quantity const& q, std::string const& to,
-                                     std::string const& what) const {
+                                    std::string const& what) const {
         auto const ratio = q.in ? q.in->in(unit(to)) : unit::ratio{};
         auto const c = ratio ? unit_conversion::of(*ratio) : std::nullopt;
         if (!c)
@@ -270,8 +269,7 @@ private:
             s.is_rate = s.name.ends_with('\'');
             if (s.is_rate) s.name.pop_back();
             auto const known = names_->items.find(s.name);
-            if (known != names_->items.end() && known->second.what == kind::state)
-                s.is_rate = true;
+            if (known != names_->items.end() && known->second.what == kind::state) s.is_rate = true;
             s.by = section.formula_of(e);
             result.push_back(std::move(s));
         }
@@ -306,8 +304,8 @@ private:
         for (auto const& f : follows_) {
             auto const& c = about().constants[names_->items.find(f.name)->second.index];
             try {
-                model_detail::add_derived(
-                    model, f.name, values.fitted(f.is, unit(c.unit), "'" + f.name + "'"));
+                model_detail::add_derived(model, f.name,
+                                          values.fitted(f.is, unit(c.unit), "'" + f.name + "'"));
             } catch (model_text_error const&) {
                 throw;
             } catch (std::invalid_argument const& error) {
@@ -336,8 +334,8 @@ private:
             if (of[i] == nullptr)
                 source_->fail(item.position, "the state '" + s.name + "' has no equation",
                               "add one to the equations: " + s.name + "' = ...");
-            auto const rate = values.fitted(of[i]->by, item.in.times(names_->time, -1),
-                                            s.name + "'");
+            auto const rate =
+                values.fitted(of[i]->by, item.in.times(names_->time, -1), s.name + "'");
             result_.model.rate.push_back(rate.in(result_.model.g));
         }
     }
@@ -361,11 +359,11 @@ private:
                 if (auto const* f = of.find("equation"))
                     is = of.formula_of(*f);
                 else
-                    is.nodes.push_back({formula::kind::name, e.key, e.key, operation::literal, {},
-                                        e.name});
+                    is.nodes.push_back(
+                        {formula::kind::name, e.key, e.key, operation::literal, {}, e.name});
                 if (auto const* d = of.find("delay"))
-                    delays_.push_back({about().channels.size(), true,
-                                       std::string(of.string_of(*d)), d->value});
+                    delays_.push_back(
+                        {about().channels.size(), true, std::string(of.string_of(*d)), d->value});
             } else {
                 is = outputs->formula_of(e);
             }
@@ -429,8 +427,7 @@ private:
         at.time = interval(0, largest);
         at.states = result_.start_ranges();
         std::vector<interval> constants;
-        for (std::size_t k = 0; k < about().constants.size(); ++k)
-            constants.push_back(range_of(k));
+        for (std::size_t k = 0; k < about().constants.size(); ++k) constants.push_back(range_of(k));
         at.constants = box(std::move(constants));
         at.inputs = box(std::vector<interval>(about().inputs.size(), interval::whole()));
         std::vector<node_id> nodes;

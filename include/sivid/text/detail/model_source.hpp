@@ -64,8 +64,9 @@ public:
         throw model_text_error({.file = name_}, problem, remedy);
     }
     [[nodiscard]] model_detail::formula_words::failure failing() const {
-        return [this](std::size_t position, std::string const& problem,
-                      std::string const& remedy) { fail(position, problem, remedy); };
+        return [this](std::size_t position, std::string const& problem, std::string const& remedy) {
+            fail(position, problem, remedy);
+        };
     }
 
     /// The position of a line and of a column in code points, both from 1.

@@ -131,8 +131,9 @@ public:
     void allow(std::initializer_list<char const*> known) const {
         for (auto const& e : entries_)
             if (std::none_of(known.begin(), known.end(), [&](auto k) { return e.name == k; }))
-                source_->fail(e.key, "unknown key " + in_quotes(e.name) +
-                                         (where_.empty() ? "" : " in " + where_),
+                source_->fail(e.key,
+                              "unknown key " + in_quotes(e.name) +
+                                  (where_.empty() ? "" : " in " + where_),
                               nearest_name(e.name, {known.begin(), known.end()}));
     }
     /// A table within; nothing where it is not.
@@ -142,8 +143,9 @@ public:
         return within(*e);
     }
     [[nodiscard]] toml_section within(entry const& e) const {
-        auto const where = where_.empty() ? "[" + e.name + "]"
-                                          : where_.substr(0, where_.size() - 1) + "." + e.name + "]";
+        auto const where = where_.empty()
+                               ? "[" + e.name + "]"
+                               : where_.substr(0, where_.size() - 1) + "." + e.name + "]";
         auto const* table = e.node->as_table();
         if (table == nullptr)
             source_->fail(e.value, "a table is needed here", "begin it by " + where);
@@ -250,10 +252,9 @@ private:
         return *value;
     }
     void read_quantity(source_slice const& s, stated_quantity& q) const {
-        model_detail::formula_words words(source_->text().substr(0, s.end),
-                                          {.fail = source_->failing(),
-                                           .longest = model_source::largest},
-                                          s.begin);
+        model_detail::formula_words words(
+            source_->text().substr(0, s.end),
+            {.fail = source_->failing(), .longest = model_source::largest}, s.begin);
         auto const read = [&] {
             bool const negative = words.take("-");
             if (!negative) static_cast<void>(words.take("+"));
