@@ -70,7 +70,7 @@ TEST_CASE("names that are wrong are told") {
 TEST_CASE("units that do not fit are told") {
     says("- kt*w", "- kt*i", 8, 15, "the unit on the left is V, that on the right N m");
     says("theta' = w", "theta' = i", 7, 10, "this has the unit A, and theta' has rad/s");
-    says("sign(w)", "sin(c)", 5, 14, "and what stands in sin has 1 (no unit)");
+    says("sign(w)", "sin(c)", 5, 14, "and what stands in sin has rad");
     says("c*sign(w)", "c + 1", 5, 10, "that on the right 1 (no unit)");
     says("\"deg\"", "\"m\"", 26, 23, "the unit rad, and the output 'angle' has m");
     says("unit = \"s\"", "unit = \"m\"", 23, 19, "the constant 'late' has the unit m");

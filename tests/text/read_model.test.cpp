@@ -291,6 +291,8 @@ TEST_CASE("formulas of a text mean what they mean in C++") {
     };
     CHECK(value("-x^2 + 2*y") == -4.25);
     CHECK(value("2/4/x") == 1);
+    CHECK(std::abs(value("sin(0.25 [rev]) + cos(180 [deg]) + sin(30 [deg])") - 0.5) < 1e-15);
+    CHECK(std::abs(value("atan(1)/(45 [deg])") - 1) < 1e-15);
     CHECK(value("1 - 2 - 3") == -4);
     CHECK(value("y^-1") == -0.5);
     CHECK(value("max(x, y, 0.25) + min(x, y)") == -1.5);

@@ -42,6 +42,7 @@ struct text_model {
 ///             of the file, rounded outward; so are factors between units
 /// @throws model_text_error  with line, column, and what to do: whatever is wrong with the file;
 ///                           each equation, effect and unit is tried, the domains of functions too
+/// @throws input_error  where there is no such file
 /// @cost  linear in the length of the file, which is 200 kB at most, times its effects
 [[nodiscard]] SIVID_DECL text_model read_model(std::filesystem::path const& file);
 

@@ -104,6 +104,9 @@ private:
     [[nodiscard]] expression plain(formula_value const& x, std::string const& function) const {
         return fitted(x, unit(), "what stands in " + function);
     }
+    [[nodiscard]] expression angle(formula_value const& x, std::string const& function) const {
+        return fitted(x, unit("rad"), "what stands in " + function);
+    }
     [[nodiscard]] unit made(std::optional<unit> const& u, std::size_t position) const {
         if (u) return *u;
         source_->fail(position, "a unit gets too high a power, or one that is no twelfth",
@@ -162,13 +165,13 @@ private:
             return {log(of)};
         }
         case operation::sin:
-            return {sin(plain(x, name))};
+            return {sin(angle(x, name))};
         case operation::cos:
-            return {cos(plain(x, name))};
+            return {cos(angle(x, name))};
         case operation::tan:
-            return {tan(plain(x, name))};
+            return {tan(angle(x, name))};
         case operation::atan:
-            return {atan(plain(x, name))};
+            return {atan(plain(x, name)), unit("rad")};
         default:
             return {tanh(plain(x, name))};
         }

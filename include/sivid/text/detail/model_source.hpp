@@ -80,8 +80,8 @@ public:
 private:
     void require_utf8() {
         auto const begin = std::string_view(text_).substr(0, 2);
-        if (begin == "\xFF\xFE" || begin == "\xFE\xFF" || begin == std::string_view("\0", 1) ||
-            (begin.size() == 2 && begin[1] == '\0'))
+        bool const half_zero = begin.size() == 2 && (begin[0] == '\0') != (begin[1] == '\0');
+        if (begin == "\xFF\xFE" || begin == "\xFE\xFF" || half_zero)
             fail_whole("the file is in UTF-16 or UTF-32", "save it as UTF-8");
         if (begin.size() == 2 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
         std::string_view const all = text_;
