@@ -453,8 +453,8 @@ private:
     /// Refuses constants and named parts that stand in no formula.
     void require_used() {
         for (auto const& [name, item] : names_->items) {
-            bool const asked = item.what == kind::constant || item.what == kind::part;
-            if (asked && !names_->used.contains(name))
+            bool const needed = item.what == kind::constant || item.what == kind::part;
+            if (needed && !names_->used.contains(name))
                 source_->fail(item.position, "'" + name + "' stands in no formula",
                               "use it, or leave it out");
         }
