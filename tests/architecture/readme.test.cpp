@@ -191,12 +191,14 @@ std::string wrong_block(block const& b) {
                 return "not part of " + marked_file + ": " + e->str();
         return {};
     }
-    if (b.kind == "cmake" || b.kind == "toml") { // lines may be left out
+    if (b.kind == "cmake" || b.kind == "toml") {
         std::istringstream in{b.text};
-        for (std::string line; std::getline(in, line);)
-            if (trimmed(from_file()).find(trimmed(line.substr(0, line.find("  #")))) ==
-                std::string::npos)
+        for (std::string line; std::getline(in, line);) {
+            // Remarks on files of CMake are those of the page.
+            auto const end = b.kind == "cmake" ? line.find("  #") : std::string::npos;
+            if (trimmed(from_file()).find(trimmed(line.substr(0, end))) == std::string::npos)
                 return "not part of " + marked_file + ": " + line;
+        }
         return {};
     }
     if (b.kind.empty())

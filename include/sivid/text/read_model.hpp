@@ -6,36 +6,13 @@
 /// Needs toml++ (Debian: libtomlplusplus-dev; CMake: sivid::text).
 
 #include <sivid/compiled.hpp>
-#include <sivid/model/effect.hpp>
-#include <sivid/model/model.hpp>
-#include <sivid/model/parameter_choice.hpp>
-#include <sivid/space/box.hpp>
 #include <sivid/text/model_text_error.hpp>
+#include <sivid/text/text_model.hpp>
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace sivid {
-
-/// A model that a file in the format sivid-model-1 (docs/formats.md) states, with all that
-/// `identify` and `diagnose` ask for beside the data.
-struct text_model {
-    std::string about;                ///< what the file says of it, in a sentence or none
-    recorded_model model;             ///< as `record_model` of a functor gives it
-    std::vector<std::string> unknown; ///< the constants that have a prior, in the file's order
-    box prior;                        ///< theirs, in the units of the constants
-    std::vector<effect> effects;      ///< what the model may leave out, in the file's order
-
-    /// The constants with a prior are unknown, the others nominal.
-    [[nodiscard]] parameter_choice parameters() const { return {unknown, {}}; }
-    /// The states' own ranges: where an experiment may start that does not say so itself.
-    [[nodiscard]] box start_ranges() const {
-        std::vector<interval> sides;
-        for (auto const& s : model.about.states) sides.push_back(s.limit.range());
-        return box(std::move(sides));
-    }
-};
 
 /// Reads a model from a file of the format sivid-model-1.
 /// @guarantee  the recorded graph encloses what the equations say: numbers are the exact decimals

@@ -8,7 +8,7 @@
 #include <sivid/text/detail/effect_reader.hpp>
 #include <sivid/text/detail/model_names.hpp>
 #include <sivid/text/detail/toml_section.hpp>
-#include <sivid/text/read_model.hpp>
+#include <sivid/text/text_model.hpp>
 
 #include <algorithm>
 #include <cmath>
