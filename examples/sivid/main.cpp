@@ -10,7 +10,10 @@
 
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -57,6 +60,8 @@ int identify(std::string const& command, sivid::recorded_model const& model, int
 }
 
 int run(int argc, char** argv) {
+    // Reports of results name the model first, as a program of its own.
+    if (argc > 2 && std::string_view(argv[1]).ends_with(".toml")) std::swap(argv[1], argv[2]);
     std::string const command = argc > 1 ? argv[1] : "";
     if (argc < 3 || command == "--help") {
         std::cout << about;
