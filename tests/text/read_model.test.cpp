@@ -331,3 +331,45 @@ TEST_CASE("effects of a text change rates, inputs and outputs") {
     CHECK(is_near(after[3], 1.2 * before[3]));
     CHECK(is_near(after[5], before[5] + 0.5));
 }
+
+TEST_CASE("ready-made effects of all kinds are read") {
+    struct kind {
+        std::string name, of, prior, more, unit;
+    };
+    auto text = texts::motor;
+    std::vector<kind> const kinds{
+        {"input_delay", "\"u\"", "[0, 1] s", "", "s"},
+        {"input_clock_drift", "\"u\"", "[0, 0.1]", "", "1"},
+        {"input_dead_band", "\"u\"", "[0, 1] V", "", "V"},
+        {"input_backlash", "\"u\"", "[0, 1] V", "", "V"},
+        {"input_rate_limit", "\"u\"", "[1, 100] V/s", "", "V/s"},
+        {"input_lag", "\"u\"", "[0, 1] s", "limit = \"24 V\"", "s"},
+        {"input_saturation", "\"u\"", "[1, 24] V", "", "V"},
+        {"input_trim", "\"u\"", "[-1, 1] V", "", "V"},
+        {"input_gain", "\"u\"", "[-0.1, 0.1]", "", "1"},
+        {"constant_rate", "\"w\"", "[-9, 9] rad/s^2", "", "rad/s^2"},
+        {"linear_damping", "\"w\"", "[0, 1] 1/s", "", "1/s"},
+        {"quadratic_damping", "\"w\"", "[0, 1] 1/rad", "", "1/rad"},
+        {"dry_friction", "\"w\"", "[0, 9] rad/s^2", "smooth_below = \"1 rad/s\"", "rad/s^2"},
+        {"drift", "\"R\"", "[0, 0.1] 1/s", "", "1/s"},
+        {"sensor_bias", "\"i\"", "[-1, 1] A", "", "A"},
+        {"sensor_drift", "\"i\"", "[-1, 1] A/s", "", "A/s"},
+        {"sensor_saturation", "\"i\"", "[1, 20] A", "", "A"},
+        {"sensor_rotation", "[\"speed\", \"angle\"]", "[-1, 1] rad", "", "rad"},
+        {"sensor_swap", "[\"speed\", \"angle\"]", "[-1, 1]", "", "1"},
+        {"sensor_scale", "[\"i\"]", "[-1, 1]", "", "1"},
+        {"sensor_latency", "\"i\"", "[0, 1] s", "", "s"},
+        {"sensor_clock_drift", "\"i\"", "[0, 0.1]", "", "1"},
+        {"sensor_lag", "\"i\"", "[0.01, 1] s", "", "s"}};
+    for (auto const& k : kinds)
+        text += "[effect." + k.name + "]\nkind = \"" + k.name + "\"\nof = " + k.of +
+                "\nprior = \"" + k.prior + "\"\n" + k.more + "\n";
+    auto const read = model_from_text(text, "motor.toml");
+    REQUIRE(read.effects.size() == 4 + kinds.size());
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        INFO(kinds[k].name);
+        auto const& e = read.effects[4 + k];
+        CHECK(e.name == kinds[k].name);
+        CHECK(e.parameters.front().unit_in(read.model.about) == kinds[k].unit);
+    }
+}

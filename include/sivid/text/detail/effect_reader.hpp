@@ -304,12 +304,11 @@ private:
     [[nodiscard]] effect ready_made(toml_section const& of, toml_section::entry const& e) const {
         of.allow({"kind", "of", "about", "prior", "limit", "rests", "smooth_below"});
         auto const wanted = *of.text("kind");
-        auto const& kinds = effect_kinds();
-        auto const found = std::find_if(kinds.begin(), kinds.end(),
+        auto const found = std::find_if(kinds::all.begin(), kinds::all.end(),
                                         [&](auto const& k) { return k.name == wanted; });
-        if (found == kinds.end()) {
+        if (found == kinds::all.end()) {
             std::vector<std::string> known;
-            for (auto const& k : kinds) known.emplace_back(k.name);
+            for (auto const& k : kinds::all) known.emplace_back(k.name);
             source_->fail(of.find("kind")->value, "unknown kind of effect " + in_quotes(wanted),
                           nearest_name(wanted, known));
         }
