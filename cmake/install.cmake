@@ -19,6 +19,8 @@ function(sivid_install_pkgconfig component description requires)
         set(cflags " -I\${includedir}")
     elseif(component STREQUAL "parallel")
         set(cflags " -DSIVID_HAS_TBB=1")
+    elseif(component STREQUAL "text")
+        set(cflags " -DSIVID_HAS_TOML=1")
     elseif(component STREQUAL "matlab")
         set(cflags " -DSIVID_HAS_MATIO=1")
     elseif(component STREQUAL "cluster")
@@ -58,6 +60,9 @@ foreach(component IN LISTS sivid_components)
     elseif(component STREQUAL "matlab")
         sivid_install_pkgconfig(matlab "Files of MATLAB as data sets of sivid"
                                 "sivid-importing = ${PROJECT_VERSION}, matio, zlib")
+    elseif(component STREQUAL "text")
+        sivid_install_pkgconfig(text "Models of sivid as text (needs the headers of toml++, too)"
+                                "sivid-io = ${PROJECT_VERSION}")
     elseif(component STREQUAL "report")
         sivid_install_pkgconfig(report "Reports of sivid" "sivid-io = ${PROJECT_VERSION}")
     elseif(component STREQUAL "parallel")
@@ -91,6 +96,7 @@ install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/s
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/find_mpi.cmake" "${CMAKE_CURRENT_LIST_DIR}/find_matio.cmake"
         "${CMAKE_CURRENT_LIST_DIR}/app.cmake"
+        "${CMAKE_CURRENT_LIST_DIR}/find_toml.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/compiled.cmake" DESTINATION "${sivid_package_dir}" RENAME sivid_compiled.cmake
         COMPONENT sivid_headers)

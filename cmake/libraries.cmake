@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The header-only targets: sivid::sivid (core), and beside it sivid::io, sivid::verifier, sivid::importing, sivid::report,
-# sivid::matlab, sivid::parallel, sivid::cluster, and sivid::app_headers, which cmake/app.cmake makes sivid::app of.
+# sivid::matlab, sivid::text, sivid::parallel, sivid::cluster, and sivid::app_headers, which cmake/app.cmake makes
+# sivid::app of.
 
 if(POLICY CMP0167)
     cmake_policy(SET CMP0167 NEW)   # BoostConfig.cmake of Boost itself
@@ -50,6 +51,13 @@ if(nlohmann_json_FOUND)
     foreach(component IN ITEMS verifier importing report)   # each on io, none on another
         sivid_add_library(${component} FOLDERS ${component} LINK sivid_io)
     endforeach()
+    include("${CMAKE_CURRENT_LIST_DIR}/find_toml.cmake")
+    if(SIVID_WITH_TOML AND sivid_toml_include)
+        sivid_add_library(text FOLDERS text LINK sivid_io tomlplusplus::tomlplusplus)
+        target_compile_definitions(sivid_text INTERFACE SIVID_HAS_TOML=1)
+    else()
+        message(STATUS "sivid: toml++ not found or not wanted, sivid::text left out (Debian: libtomlplusplus-dev)")
+    endif()
     include("${CMAKE_CURRENT_LIST_DIR}/find_matio.cmake")
     if(SIVID_WITH_MATIO AND sivid_matio_libraries)
         sivid_add_library(matlab LINK sivid_importing ${sivid_matio_libraries})   # its header is one of importing
@@ -58,7 +66,7 @@ if(nlohmann_json_FOUND)
         message(STATUS "sivid: libmatio or zlib not found or not wanted, sivid::matlab left out")
     endif()
 else()
-    message(STATUS "sivid: nlohmann_json not found: sivid::io and what stands on it (verifier, importing, report) left out")
+    message(STATUS "sivid: nlohmann_json not found: sivid::io and what stands on it (verifier, importing, report, text) left out")
 endif()
 
 if(EXISTS "${sivid_include_dir}/sivid/parallel")

@@ -46,7 +46,7 @@ set(CPACK_DEBIAN_SIVID_HEADERS_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_SIVID_HEADERS_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_SIVID_HEADERS_PACKAGE_DEPENDS "libboost-dev (>= 1.74), libeigen3-dev (>= 3.3)")
 set(CPACK_DEBIAN_SIVID_HEADERS_PACKAGE_RECOMMENDS "nlohmann-json3-dev (>= 3.9)")
-set(CPACK_DEBIAN_SIVID_HEADERS_PACKAGE_SUGGESTS "libcli11-dev, libtbb-dev, libmpfi-dev, libmatio-dev, cmake, pkg-config, sivid")
+set(CPACK_DEBIAN_SIVID_HEADERS_PACKAGE_SUGGESTS "libcli11-dev, libtbb-dev, libmpfi-dev, libmatio-dev, libtomlplusplus-dev, cmake, pkg-config, sivid")
 
 set(CPACK_COMPONENT_SIVID_PROGRAMS_DESCRIPTION
 "set-inversion validated identification (programs)

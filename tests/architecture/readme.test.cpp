@@ -191,12 +191,14 @@ std::string wrong_block(block const& b) {
                 return "not part of " + marked_file + ": " + e->str();
         return {};
     }
-    if (b.kind == "cmake") {
+    if (b.kind == "cmake" || b.kind == "toml") {
         std::istringstream in{b.text};
-        for (std::string line; std::getline(in, line);)
-            if (trimmed(from_file()).find(trimmed(line.substr(0, line.find("  #")))) ==
-                std::string::npos)
+        for (std::string line; std::getline(in, line);) {
+            // Remarks on files of CMake are those of the page.
+            auto const end = b.kind == "cmake" ? line.find("  #") : std::string::npos;
+            if (trimmed(from_file()).find(trimmed(line.substr(0, end))) == std::string::npos)
                 return "not part of " + marked_file + ": " + line;
+        }
         return {};
     }
     if (b.kind.empty())
@@ -227,6 +229,7 @@ TEST_CASE("a block that has gone stale is found", "[readme]") {
         {"p", "sh", "", "cmake -S . -B build -DSIVID_NO_SUCH=ON\n"},
         {"p", "json", "examples/import/german_logger/mapping.json", "{ \"duration\": 2.9 }\n"},
         {"p", "cmake", "examples/consumer/CMakeLists.txt", "find_package(other)\n"},
+        {"p", "toml", "examples/first_steps/logistic_growth.toml", "time = \"s\"\n"},
         {"p", "", "", "printed\n"},
         {"p", "(indented)", "", "    code\n"}};
     for (auto const& b : stale) {

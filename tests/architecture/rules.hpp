@@ -23,11 +23,11 @@ namespace architecture {
 
 namespace fs = std::filesystem;
 
-inline constexpr std::array<std::string_view, 16> floors{
+inline constexpr std::array<std::string_view, 17> floors{
     "number",    "space",     "measurement", "model",     "approximate",
     "enclosure", "paving",    "decision",    "diagnosis", "io",
-    "verifier",  "importing", "report",      "parallel",  "cluster",
-    "app"};
+    "verifier",  "importing", "report",      "text",      "parallel",
+    "cluster",   "app"};
 inline constexpr std::size_t core_floors = 9;
 /// Headers outside of floors that each floor may include.
 inline constexpr std::array<std::string_view, 4> common{
@@ -106,6 +106,7 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     if (one_of({"nlohmann/"})) return floor == "io" || floor == "report";
     if (one_of({"mpi.h"})) return floor == "cluster";
     if (one_of({"matio.h"})) return file == "matlab_reader.hpp";
+    if (one_of({"toml++/"})) return floor == "text";
     if (one_of({"zlib.h"})) return file == "whole_level5.hpp";
     if (one_of({"tbb/", "oneapi/"})) return floor == "parallel";
     if (name.find('/') != std::string_view::npos)

@@ -80,26 +80,27 @@ TEST_CASE("what is no term says where and why") {
     };
     says("x'=2", "names no term");
     says("'~2", "names no term");
-    says("x'~", "a factor is needed");
-    says("x'~2*", "a factor is needed");
-    says("x'~2**x", "a factor is needed");
+    says("x'~", "something is missing");
+    says("x'~2*", "something is missing");
+    says("x'~2**x", "this cannot begin an expression");
     says("x'~2*x)", "'*' or '/' is needed");
-    says("x'~2*abs(x", "')' is needed");
-    says("x'~2*sgn(x)", "':' is needed");
+    says("x'~2*abs(x", "')' is missing");
+    says("x'~2*sgn(x)", "':' is missing");
     says("x'~2*lift(x)", "is no function");
-    says("x'~2*x^1", "a power from 2 to 9");
+    says("x'~2*x^1", "a whole number from 2 to 9");
     says("x'~1.2.3*x", "is no number");
-    says("x'~2exp(x)", "'*' or '/' is needed");
-    says("x'~2e", "'*' or '/' is needed");
-    says("x'~2e+", "'*' or '/' is needed");
+    says("x'~2exp(x)", "is no number");
+    says("x'~2e", "is no number");
+    says("x'~2e+", "is no number");
     says("x'~2*turn(x)*turn(w)", "stand once");
     says("x'~2*abs(turn(x))", "stand once");
+    says("x'~2/turn(x)", "stand once");
     says("x'~2*speed", "the model has no 'speed'; known: t, x, w, u, c");
     says("z'~2*x", "z");
-    says("x'~2*" + std::string(20, '(') + "x", "too many brackets");
+    says("x'~2*" + std::string(20, '(') + "x", "nested too deep");
     std::string deep = "x";
     for (int k = 0; k < 20; ++k) deep = "abs(" + deep + ")";
-    says("x'~2*" + deep, "too many brackets");
+    says("x'~2*" + deep, "nested too deep");
 }
 
 namespace {

@@ -108,3 +108,13 @@ TEST_CASE("what is no unit says why") {
         CHECK(unit(text).fault().empty());
     }
 }
+
+TEST_CASE("a unit has powers and roots that are whole twelfths") {
+    CHECK(unit("m^2/s^4").power(1, 2) == unit("m/s^2"));
+    CHECK(unit("kg m").power(-2) == unit("1/(kg^2 m^2)"));
+    CHECK(unit("m").power(1, 2)->power(2) == unit("m"));
+    CHECK(unit("m").power(0) == unit());
+    CHECK_FALSE(unit("m").power(1, 5));
+    CHECK_FALSE(unit("m^50").power(2));
+    CHECK(unit("1").power(1'000'000) == unit());
+}

@@ -66,6 +66,7 @@ struct robot {
     std::string title; ///< what the program does, for --help
     recorded_model model;
     std::vector<effect> effects; ///< that may be missing in the model
+    std::string file{};          ///< of the model, where it stands behind each command
 
     std::vector<model_variant> variants{};
     /// The model for a choice of each variant, in their order; empty where there are none.

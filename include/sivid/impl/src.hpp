@@ -7,8 +7,8 @@
 /// often compiled anew, defines SIVID_COMPILED for all of them and includes this header in one
 /// source alone; the others then find declarations only.
 ///   CMake's sivid::compiled does the same in several sources, which takes less memory and compiles
-/// side by side. Data sets, results and reports: `impl/io.ipp`, `impl/verifier.ipp` and
-/// `impl/report.ipp` beside it.
+/// side by side. Data sets, results and reports: `impl/io.ipp`, `impl/verifier.ipp`,
+/// `impl/report.ipp` and `impl/text.ipp` beside it.
 
 #ifndef SIVID_COMPILED
 #error "define SIVID_COMPILED for all sources of the program; without it the headers are complete"

@@ -38,6 +38,11 @@ public:
     /// The product with `other` to the power n.
     [[nodiscard]] unit times(unit const& other, int n) const;
 
+    /// The power above/below of it, below > 0: `power(1, 2)` of m^2 is m.
+    /// @returns  nothing where a power of a symbol would not be a whole count of twelfths, or beyond
+    ///           99
+    [[nodiscard]] std::optional<unit> power(int above, int below = 1) const;
+
     /// Positive powers first, for instance "kg m^2/s"; "1" without a unit.
     [[nodiscard]] std::string text() const;
 

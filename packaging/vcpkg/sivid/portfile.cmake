@@ -8,6 +8,7 @@ set(VCPKG_BUILD_TYPE release)   # headers only
 # What a feature does not ask for is not looked for, either.
 set(options -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON)   # sivid::cluster is no feature here
 list(APPEND options -DSIVID_WITH_MATIO=OFF)               # nor is sivid::matlab
+list(APPEND options -DSIVID_WITH_TOML=OFF)                # nor is sivid::text
 foreach(feature_package IN ITEMS io:nlohmann_json parallel:TBB)
     string(REPLACE ":" ";" pair "${feature_package}")
     list(GET pair 0 feature)

@@ -200,7 +200,8 @@ private:
     CLI::App* add(Command& c, std::string const& name, std::string const& about,
                   std::string const& example, std::function<int()> work) {
         auto* const s = app_.add_subcommand(name, about);
-        s->footer("Example: " + of_.name + " " + name + " " + example);
+        auto const file = of_.file.empty() ? "" : of_.file + " ";
+        s->footer("Example: " + of_.name + " " + name + " " + file + example);
         s->add_flag("--quiet", c.quiet, "no progress");
         for (std::size_t k = 0; k < of_.variants.size(); ++k) {
             auto const& v = of_.variants[k];
@@ -723,6 +724,7 @@ private:
     int run_fleet_of_robot() {
         auto& c = fleet_;
         c.words = {fleet_of_};
+        if (!of_.file.empty()) c.words.push_back(of_.file);
         if (fleet_budget_) c.options = {"--budget", text_of("%.17g", *fleet_budget_)};
         std::istringstream words(fleet_options_);
         for (std::string word; words >> word;) c.options.push_back(word);
@@ -768,7 +770,10 @@ private:
 } // namespace detail
 
 SIVID_DECL int run(robot const& r, int argc, char** argv) {
-    auto const line = command_line(r.name, argc, argv);
+    std::vector<char*> told(argv, argv + argc);
+    auto file = r.file;
+    if (!file.empty() && argc > 1) told.insert(told.begin() + 2, file.data());
+    auto const line = command_line(r.name, static_cast<int>(told.size()), told.data());
     return guarded_on_ranks(r.name, argc, argv, [&](ranks const& all) {
         return detail::program(r, line, all)(argc, argv);
     });

@@ -5,23 +5,27 @@
 #include <sivid/model/named_effects.hpp>
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/detail/formula_grammar.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/number/decimal.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace sivid {
 
 namespace detail {
 
-/// Reads the formula of a term from left to right, without going back.
-class term_reader {
+/// Reads the formula of a term.
+class term_reader : model_detail::formula_grammar<term_reader, expression> {
+    using grammar = model_detail::formula_grammar<term_reader, expression>;
+    friend grammar;
+
 public:
     using leaf = std::function<expression(std::string const&)>;
 
@@ -32,128 +36,107 @@ public:
     };
 
     term_reader(std::string const& name, std::size_t begin, leaf value, unknowns& own)
-        : name_(&name), at_(begin), value_(std::move(value)), own_(&own) {}
+        : grammar({name, {.fail = failing(name)}, begin}, most_nested),
+          value_(std::move(value)),
+          own_(&own) {}
 
     [[nodiscard]] expression read() {
-        auto const result = product(true);
-        if (at_ != name_->size()) fail("'*' or '/' is needed here");
+        auto const result = product();
+        if (!words_.at_end()) words_.fail("'*' or '/' is needed here", "a sum stands in brackets");
         return result;
     }
 
 private:
-    static constexpr int most_nested = 8;
+    static constexpr std::size_t most_nested = 16;
 
-    [[noreturn]] void fail(std::string const& why) const {
-        throw std::invalid_argument("term '" + *name_ + "', character " + std::to_string(at_ + 1) +
-                                    ": " + why + "; write a term as in v'~0.5*abs(v)*v");
-    }
-    [[nodiscard]] char next() const { return at_ < name_->size() ? (*name_)[at_] : '\0'; }
-    bool take(char c) {
-        if (next() != c) return false;
-        ++at_;
-        return true;
-    }
-    void need(char c) {
-        if (!take(c)) fail(std::string("'") + c + "' is needed here");
+    [[nodiscard]] static model_detail::formula_words::failure failing(std::string const& name) {
+        return [&name](std::size_t at, std::string const& problem, std::string const& remedy) {
+            throw std::invalid_argument("term '" + name + "', character " + std::to_string(at + 1) +
+                                        ": " + problem + "; " + remedy +
+                                        "; write a term as in v'~0.5*abs(v)*v");
+        };
     }
 
-    [[nodiscard]] expression sum() {
-        if (++nested_ > most_nested) fail("too many brackets");
-        auto result = take('-') ? -product(false) : product(false);
-        for (;;) {
-            if (take('+')) {
-                result += product(false);
-            } else if (take('-')) {
-                result -= product(false);
-            } else {
-                --nested_;
-                return result;
-            }
+    // What the grammar asks for.
+    [[nodiscard]] expression in_brackets() {
+        ++brackets_;
+        auto const result = sum();
+        --brackets_;
+        return result;
+    }
+    [[nodiscard]] expression combined(operation op, expression const& a, expression const& b,
+                                      std::size_t sign) {
+        switch (op) {
+        case operation::add:
+            return a + b;
+        case operation::sub:
+            return a - b;
+        case operation::mul:
+            return a * b;
+        default:
+            if (own_->turns && sign < turned_at_) outside_only(turned_at_);
+            return a / b;
         }
     }
-    /// @param outside  of all brackets, where turn and wave may stand
-    [[nodiscard]] expression product(bool outside) {
-        auto result = power(outside);
-        for (;;) {
-            if (take('*')) {
-                result *= power(outside);
-            } else if (take('/')) {
-                result /= power(false);
-            } else {
-                return result;
-            }
-        }
+    [[nodiscard]] expression negated(expression const& a, std::size_t) { return -a; }
+    [[nodiscard]] expression placed(expression a, std::size_t) { return a; }
+    [[nodiscard]] expression raised(expression const& a, std::size_t hat) {
+        return pown(a, whole_power(hat, 2, 9));
     }
-    [[nodiscard]] expression power(bool outside) {
-        auto result = factor(outside);
-        if (!take('^')) return result;
-        if (next() < '2' || next() > '9') fail("a power from 2 to 9 is needed here");
-        int const n = (*name_)[at_++] - '0';
-        return n == 2 ? sqr(result) : pown(result, n);
-    }
-    [[nodiscard]] bool is_digit(std::size_t k) const {
-        return k < name_->size() && std::isdigit(static_cast<unsigned char>((*name_)[k])) != 0;
-    }
-    [[nodiscard]] expression number() {
-        auto const begin = at_;
-        while (is_digit(at_) || next() == '.') ++at_;
-        if (next() == 'e') { // 4e+02; else it is the begin of a word
-            bool const sign =
-                at_ + 1 < name_->size() && ((*name_)[at_ + 1] == '+' || (*name_)[at_ + 1] == '-');
-            auto const first = at_ + (sign ? 2 : 1);
-            if (is_digit(first)) at_ = first;
-            while (is_digit(at_)) ++at_;
-        }
-        auto const text = std::string_view(*name_).substr(begin, at_ - begin);
+    [[nodiscard]] expression constant(std::string_view text, std::size_t position) {
         auto const value = parse_decimal(text);
-        if (!value) fail("'" + std::string(text) + "' is no number");
+        if (!value) words_.fail_at(position, "this is no number", "write a decimal such as 0.25");
         return expression(*value);
     }
-    [[nodiscard]] expression factor(bool outside) {
-        if (is_digit(at_)) return number();
-        auto const begin = at_;
-        while (std::isalnum(static_cast<unsigned char>(next())) != 0 || next() == '_') ++at_;
-        auto const word = name_->substr(begin, at_ - begin);
-        bool const opens = take('(');
-        if (word.empty() && !opens) fail("a factor is needed here");
-        if (!opens) return value_(word);
-        auto const x = sum();
+    [[nodiscard]] expression quantity_of(std::string const& name, std::size_t) {
+        return value_(name);
+    }
+    /// A number behind a colon.
+    [[nodiscard]] expression width() {
+        words_.need(":", "write sgn(x:0.1) or beyond(x:0.1)");
+        auto const position = words_.position();
+        auto const text = words_.take_number();
+        if (!text) words_.fail("a number is needed here", "write sgn(x:0.1) or beyond(x:0.1)");
+        return constant(*text, position);
+    }
+    [[nodiscard]] expression call(std::string const& word, std::size_t position) {
+        auto const x = in_brackets();
         expression result;
-        if (word.empty()) {
-            result = x;
-        } else if (word == "abs") {
+        if (word == "abs") {
             result = abs(x);
         } else if (word == "sqrt") {
             result = sqrt(x);
         } else if (word == "exp") {
             result = exp(x);
         } else if (word == "sgn") {
-            need(':');
-            result = x / sqrt(sqr(x) + sqr(number()));
+            result = x / sqrt(sqr(x) + sqr(width()));
         } else if (word == "beyond") {
-            need(':');
-            result = deadband(x, number());
+            result = deadband(x, width());
         } else if (word == "turn" || word == "wave") {
-            if (!outside || own_->turns || own_->waves) {
-                fail("turn and wave stand once, outside of brackets");
-            }
-            own_->turns = true;
-            own_->waves = word == "wave";
-            auto const angle = own_->waves ? own_->parameter(2) * x : x;
-            result = own_->parameter(0) * cos(angle) + own_->parameter(1) * sin(angle);
+            result = turned(word == "wave", x, position);
         } else {
-            fail("'" + word +
-                 "' is no function: there are abs, sqrt, exp, sgn, beyond, turn, wave");
+            words_.fail_at(position, "'" + word + "' is no function",
+                           "there are abs, sqrt, exp, sgn, beyond, turn, wave");
         }
-        need(')');
+        words_.need(")", "close the bracket");
         return result;
     }
+    [[nodiscard]] expression turned(bool waves, expression const& x, std::size_t position) {
+        if (brackets_ > 0 || own_->turns) outside_only(position);
+        own_->turns = true;
+        own_->waves = waves;
+        turned_at_ = position;
+        auto const angle = waves ? own_->parameter(2) * x : x;
+        return own_->parameter(0) * cos(angle) + own_->parameter(1) * sin(angle);
+    }
+    [[noreturn]] void outside_only(std::size_t position) const {
+        words_.fail_at(position, "turn and wave stand once, outside of brackets",
+                       "multiply the rest by them");
+    }
 
-    std::string const* name_;
-    std::size_t at_;
-    int nested_ = 0;
     leaf value_;
     unknowns* own_;
+    std::size_t brackets_ = 0, turned_at_ = 0;
 };
 
 } // namespace detail

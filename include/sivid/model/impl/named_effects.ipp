@@ -8,11 +8,10 @@
 #include <sivid/model/effects.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/text/kept_decimal.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <mutex>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -49,15 +48,6 @@ inline std::vector<std::string> experiments_in(std::string& name) {
     return result;
 }
 
-/// The text for as long as the program runs, as priors need it; each once.
-inline decimal kept(std::string const& text) {
-    static std::mutex one_at_a_time;
-    static std::set<std::string> all;
-    std::lock_guard const alone(one_at_a_time);
-    auto const& own = *all.insert(text).first;
-    return {own.c_str(), own.size(), false};
-}
-
 /// "sensor_lag(u:v)~0.5" in its parts.
 struct fault_name {
     std::string whole, kind, size;
@@ -88,9 +78,11 @@ struct fault_name {
             fail(count == 1 ? "one channel is needed"
                             : std::to_string(count) + " names are needed");
     }
-    [[nodiscard]] effects::range either_way() const { return {-kept(size), kept(size)}; }
+    [[nodiscard]] effects::range either_way() const {
+        return {-kept_decimal(size), kept_decimal(size)};
+    }
     [[nodiscard]] effects::range from(char const* power_of_ten) const {
-        return {kept(size + power_of_ten), kept(size)};
+        return {kept_decimal(size + power_of_ten), kept_decimal(size)};
     }
 };
 
@@ -139,7 +131,7 @@ SIVID_DECL effect sensor_fault(std::string const& name, model_description const*
     }
     if (f.kind == "sensor_scale") return kinds::sensor_scale(name, channels, f.either_way());
     if (f.kind == "sensor_latency")
-        return kinds::sensor_latency(name, channels, {0_dec, detail::kept(f.size)});
+        return kinds::sensor_latency(name, channels, {0_dec, kept_decimal(f.size)});
     if (f.kind == "sensor_lag") return kinds::sensor_lag(name, channels, f.from("e-2"));
     if (f.kind == "sensor_saturation") {
         f.need(1);

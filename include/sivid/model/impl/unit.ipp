@@ -274,6 +274,18 @@ SIVID_DECL unit unit::times(unit const& other, int n) const {
     return result;
 }
 
+SIVID_DECL std::optional<unit> unit::power(int above, int below) const {
+    auto result = *this;
+    for (auto& [symbol, power] : result.powers_) {
+        auto const raised = static_cast<long long>(power) * above;
+        constexpr long long most = 99LL * model_detail::whole_power;
+        if (raised % below != 0 || std::llabs(raised / below) > most) return std::nullopt;
+        power = static_cast<int>(raised / below);
+    }
+    result.drop_zeros();
+    return result;
+}
+
 SIVID_DECL std::string unit::text() const {
     std::string above;
     std::string below;

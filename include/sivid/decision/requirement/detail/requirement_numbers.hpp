@@ -3,14 +3,13 @@
 #define SIVID_DECISION_REQUIREMENT_DETAIL_REQUIREMENT_NUMBERS_HPP
 
 #include <sivid/decision/requirement/detail/requirement_words.hpp>
+#include <sivid/model/detail/formula_grammar.hpp>
 #include <sivid/model/expression.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/number/decimal.hpp>
 #include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -21,38 +20,28 @@
 
 namespace sivid::decision_detail {
 
+/// What was read of a requirement: a number at each instant, or a formula.
+struct requirement_operand {
+    bool is_formula = false;
+    node_id value = 0;    ///< of a number
+    std::size_t part = 0; ///< of a formula
+    std::size_t position = 0;
+    std::optional<double> time{}; ///< of a number that is asked at one time only
+};
+
 /// Reads the expressions of a requirement, or of a control law, into the graph of a model.
-class requirement_numbers {
+class requirement_numbers
+    : protected model_detail::formula_grammar<class requirement_numbers, requirement_operand> {
 protected:
+    using grammar = model_detail::formula_grammar<requirement_numbers, requirement_operand>;
+    friend grammar;
+    using operand = requirement_operand;
+    using level = grammar::level;
+
     /// @param what  the text is, for messages; a literal
     requirement_numbers(std::string_view what, std::string_view text, recorded_model& model)
-        : words_(what, text), model_(model) {}
+        : grammar(requirement_words(what, text), 60), model_(model) {}
     ~requirement_numbers() = default;
-
-    /// What was read: a number at each instant, or a formula.
-    struct operand {
-        bool is_formula = false;
-        node_id value = 0;    ///< of a number
-        std::size_t part = 0; ///< of a formula
-        std::size_t position = 0;
-        std::optional<double> time{}; ///< of a number that is asked at one time only
-    };
-    /// One level of nesting.
-    class level {
-    public:
-        explicit level(requirement_numbers& p) : depth_(p.depth_) {
-            if (++depth_ > 60) {
-                --depth_;
-                p.words_.fail("nested too deep", "use fewer brackets, at most 60 deep");
-            }
-        }
-        level(level const&) = delete;
-        level& operator=(level const&) = delete;
-        ~level() { --depth_; }
-
-    private:
-        std::size_t& depth_;
-    };
 
     graph& g() { return model_.g; }
 
@@ -86,79 +75,33 @@ protected:
                       numeric(a.position, [&] { return g().binary(op, a.value, b.value); }));
     }
 
-    operand sum() {
-        auto left = product();
-        while (true) {
-            if (words_.take("+"))
-                left = binary(operation::add, left, product());
-            else if (words_.take("-"))
-                left = binary(operation::sub, left, product());
-            else
-                return left;
-        }
+    // What the grammar asks for.
+    operand combined(operation op, operand const& a, operand const& b, std::size_t) {
+        return binary(op, a, b);
     }
-    operand product() {
-        auto left = factor();
-        while (true) {
-            if (words_.take("*"))
-                left = binary(operation::mul, left, factor());
-            else if (words_.take("/"))
-                left = binary(operation::div, left, factor());
-            else
-                return left;
-        }
+    operand negated(operand const& of, std::size_t position) {
+        need_plain(of);
+        return number(position, g().neg(of.value));
     }
-    operand factor() {
-        level const nested(*this);
-        auto const position = words_.position();
-        if (words_.take("-")) {
-            auto const of = factor();
-            need_plain(of);
-            return number(position, g().neg(of.value));
-        }
-        if (words_.take("+")) return factor();
-        auto base = primary();
-        auto const hat = words_.position();
-        if (!words_.take("^")) return base;
+    operand raised(operand const& base, std::size_t hat) {
         need_plain(base);
-        auto const text = words_.take_number();
-        int power = 0;
-        if (text) {
-            auto const [stop, fault] =
-                std::from_chars(text->data(), text->data() + text->size(), power);
-            if (fault != std::errc{} || stop != text->data() + text->size()) power = 0;
-        }
-        if (power < 1 || power > 32)
-            words_.fail_at(hat, "a power needs a whole number from 1 to 32",
-                           "write x^2; for others use exp and log");
+        int const power = whole_power(hat, 1, 32);
         return number(base.position, numeric(hat, [&] {
                           return pown(expression(g(), base.value), power).in(g());
                       }));
     }
-    operand primary() {
-        auto const position = words_.position();
-        if (auto const text = words_.take_number()) {
-            auto const value = parse_decimal(*text);
-            if (!value || !std::isfinite(mag(*value)))
-                words_.fail_at(position, "this is no finite number",
-                               "write a decimal such as 0.25 or 1e-3");
-            return number(position, numeric(position, [&] {
-                              return g().constant(literal{*value, mid(*value)});
-                          }));
-        }
-        if (words_.take("(")) {
-            auto of = in_brackets();
-            words_.need(")", "close the bracket");
-            of.position = position;
-            return of;
-        }
-        auto const name = words_.take_name();
-        if (!name)
-            words_.fail(words_.at_end() ? "something is missing"
-                                        : "this cannot begin an expression",
-                        "write a number, a name of the model, a function, or a bracket");
-        if (words_.take("(")) return call(*name, position);
-        return quantity_of(*name, position);
+    operand placed(operand of, std::size_t position) {
+        of.position = position;
+        return of;
+    }
+    operand constant(std::string_view text, std::size_t position) {
+        auto const value = parse_decimal(text);
+        if (!value || !std::isfinite(mag(*value)))
+            words_.fail_at(position, "this is no finite number",
+                           "write a decimal such as 0.25 or 1e-3");
+        return number(position, numeric(position, [&] {
+                          return g().constant(literal{*value, mid(*value)});
+                      }));
     }
 
     /// The channel that a bracket names, and the bracket's end.
@@ -176,13 +119,8 @@ protected:
     operand call(std::string const& name, std::size_t position) {
         if (auto const own = further_call(name, position)) return *own;
         if (name == "measured") return number(position, model_.observe[channel_in_bracket()]);
-        static constexpr std::array<operation, 12> known{
-            operation::sqrt, operation::exp,  operation::log,  operation::sin,
-            operation::cos,  operation::tan,  operation::atan, operation::tanh,
-            operation::abs,  operation::sign, operation::min,  operation::max};
-        auto const found = std::find_if(known.begin(), known.end(),
-                                        [&](operation op) { return sivid::name(op) == name; });
-        if (found == known.end())
+        auto const found = model_detail::function_named(name);
+        if (!found)
             words_.fail_at(position, "unknown function '" + name + "'",
                            "known: sqrt, exp, log, sin, cos, tan, atan, tanh, abs, sign, min, max, "
                            "measured" +
@@ -251,9 +189,7 @@ protected:
                            "write (x + 1) at 2 > 3, not x at 2 + 1 > 3");
     }
 
-    requirement_words words_;
     recorded_model& model_;
-    std::size_t depth_ = 0;
 };
 
 } // namespace sivid::decision_detail

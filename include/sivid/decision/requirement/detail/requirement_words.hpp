@@ -3,125 +3,27 @@
 #define SIVID_DECISION_REQUIREMENT_DETAIL_REQUIREMENT_WORDS_HPP
 
 #include <sivid/decision/requirement/requirement_types.hpp>
+#include <sivid/model/detail/formula_words.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace sivid::decision_detail {
 
-/// A text as words, numbers and signs, taken one after the other.
-class requirement_words {
-public:
-    /// @param what  the text is, for messages; a literal
-    requirement_words(std::string_view what, std::string_view text) : what_(what), text_(text) {
-        if (text.size() > 10'000)
-            throw requirement_error(what_, text, 10'000, "the text is too long",
-                                    "use at most 10000 characters");
-        skip();
-    }
-
-    [[nodiscard]] std::size_t position() const { return at_; }
-    /// What was read since a position, without spaces behind.
-    [[nodiscard]] std::string text_from(std::size_t begin) const {
-        auto end = at_;
-        while (end > begin && is_space(text_[end - 1])) --end;
-        return std::string(text_.substr(begin, end - begin));
-    }
-    [[nodiscard]] bool at_end() const { return at_ == text_.size(); }
-
-    /// Whether the next word or sign is this one.
-    [[nodiscard]] bool peek(std::string_view wanted) const {
-        if (text_.substr(at_, wanted.size()) != wanted) return false;
-        bool const word = is_letter(wanted.front());
-        auto const after = at_ + wanted.size();
-        return !word || after == text_.size() || !continues(text_[after]);
-    }
-    [[nodiscard]] bool take(std::string_view wanted) {
-        if (!peek(wanted)) return false;
-        at_ += wanted.size();
-        skip();
-        return true;
-    }
-    void need(std::string_view wanted, std::string const& remedy) {
-        if (!take(wanted)) fail("'" + std::string(wanted) + "' is missing", remedy);
-    }
-    /// One of < <= > >=.
-    [[nodiscard]] std::optional<std::string_view> take_relation() {
-        if (peek("==") || peek("!=") || peek("="))
-            fail("real numbers are not compared for equality",
-                 "write a tolerance, such as abs(x - 2) < 0.01");
-        for (std::string_view relation : {"<=", ">=", "<", ">"}) {
-            if (take(relation)) return relation;
-        }
-        return std::nullopt;
-    }
-    /// Digits with point and exponent; no sign.
-    [[nodiscard]] std::optional<std::string_view> take_number() {
-        auto end = at_;
-        auto const digits = [&] {
-            auto const begin = end;
-            while (end < text_.size() && is_digit(text_[end])) ++end;
-            return end - begin;
-        };
-        auto count = digits();
-        if (end < text_.size() && text_[end] == '.') {
-            ++end;
-            count += digits();
-        }
-        if (count == 0) return std::nullopt;
-        if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
-            auto const mantissa = end++;
-            if (end < text_.size() && (text_[end] == '+' || text_[end] == '-')) ++end;
-            if (digits() == 0) end = mantissa;
-        }
-        if (end < text_.size() && (continues(text_[end]) || text_[end] == '.'))
-            fail("this is no number", "write a decimal such as 0.25 or 1e-3, and * for products");
-        auto const number = text_.substr(at_, end - at_);
-        at_ = end;
-        skip();
-        return number;
-    }
-    /// A name, which may have dots within, as those of effects.
-    [[nodiscard]] std::optional<std::string> take_name() {
-        if (at_end() || !is_letter(text_[at_])) return std::nullopt;
-        auto end = at_;
-        while (end < text_.size() && continues(text_[end])) ++end;
-        std::string name(text_.substr(at_, end - at_));
-        static constexpr std::array<std::string_view, 10> kept{
-            "and", "or", "not", "implies", "until", "always", "eventually", "at", "in", "end"};
-        if (std::find(kept.begin(), kept.end(), name) != kept.end())
-            fail("'" + name + "' cannot stand here", "an expression is needed");
-        at_ = end;
-        skip();
-        return name;
-    }
-
-    [[noreturn]] void fail(std::string const& problem, std::string const& remedy) const {
-        fail_at(at_, problem, remedy);
-    }
-    [[noreturn]] void fail_at(std::size_t position, std::string const& problem,
-                              std::string const& remedy) const {
-        throw requirement_error(what_, text_, position, problem, remedy);
-    }
-
-private:
-    static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-    static bool is_letter(char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    }
-    static bool continues(char c) { return is_letter(c) || is_digit(c) || c == '.'; }
-    static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-    void skip() {
-        while (at_ < text_.size() && is_space(text_[at_])) ++at_;
-    }
-
-    std::string_view what_, text_;
-    std::size_t at_ = 0;
-};
+/// The words of a requirement, or of a control law.
+/// @param what  the text is, for messages; a literal
+[[nodiscard]] inline model_detail::formula_words requirement_words(std::string_view what,
+                                                                   std::string_view text) {
+    static constexpr std::array<std::string_view, 10> kept{
+        "and", "or", "not", "implies", "until", "always", "eventually", "at", "in", "end"};
+    auto const fail = [what, text](std::size_t position, std::string const& problem,
+                                   std::string const& remedy) {
+        throw requirement_error(what, text, position, problem, remedy);
+    };
+    return {text, {.fail = fail, .kept = kept}};
+}
 
 } // namespace sivid::decision_detail
 

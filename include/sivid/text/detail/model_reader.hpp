@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_TEXT_DETAIL_MODEL_READER_HPP
+#define SIVID_TEXT_DETAIL_MODEL_READER_HPP
+
+#include <sivid/io/dataset/unit_conversion.hpp>
+#include <sivid/io/text/exact_decimal.hpp>
+#include <sivid/model/graph/graph_range.hpp>
+#include <sivid/text/detail/effect_reader.hpp>
+#include <sivid/text/detail/model_names.hpp>
+#include <sivid/text/detail/toml_section.hpp>
+#include <sivid/text/text_model.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid::text_detail {
+
+/// Makes a model of the tables of its file.
+class model_reader {
+public:
+    model_reader(std::shared_ptr<model_source const> source, toml::table const& table)
+        : source_(std::move(source)),
+          names_(std::make_shared<model_names>()),
+          whole_(*source_, table, "") {}
+
+    [[nodiscard]] text_model read() {
+        read_head();
+        read_states();
+        read_inputs();
+        read_constants();
+        read_parts();
+        auto& g = result_.model.g;
+        // The leaves in the order in which those of a functor are entered.
+        auto const enter = [&g](operation op, std::size_t n) {
+            for (std::size_t i = 0; i < n; ++i) g.leaf(op, i);
+        };
+        enter(operation::state, about().states.size());
+        enter(operation::constant, about().constants.size());
+        enter(operation::input, about().inputs.size());
+        g.leaf(operation::time, 0);
+        record();
+        model_detail::require_own_names(about());
+        effect_reader effects(source_, names_, result_.model);
+        if (auto const section = whole_.section("effect")) result_.effects = effects.read(*section);
+        require_used();
+        return std::move(result_);
+    }
+
+private:
+    using kind = model_names::kind;
+    static constexpr std::size_t most_parts = 500; // their formulas are evaluated by recursion
+
+    model_description& about() { return result_.model.about; }
+
+    void read_head() {
+        whole_.allow({"format", "name", "about", "time", "states", "inputs", "constants", "let",
+                      "equations", "outputs", "effect"});
+        auto const format = whole_.text("format");
+        if (!format || *format != "sivid-model-1")
+            source_->fail(format ? whole_.find("format")->value : 0,
+                          "this is no model in the format sivid-model-1",
+                          "begin the file by: format = \"sivid-model-1\"");
+        auto const* name = whole_.find("name");
+        if (name == nullptr) source_->fail(0, "the model has no name", "add: name = \"robot\"");
+        about().name = whole_.string_of(*name);
+        if (about().name.empty() || !unprintable_in(about().name).empty())
+            source_->fail(name->value, "this is no name", "write one of letters");
+        result_.about = whole_.text("about").value_or("");
+        if (auto const* time = whole_.find("time")) {
+            about().time_unit = whole_.string_of(*time);
+            names_->time = unit_in(*time, about().time_unit);
+            if (!names_->time.in(unit("s")))
+                source_->fail(time->value, "this is no unit of time", "write \"s\" or \"ms\"");
+        } else {
+            names_->time = unit("s");
+        }
+        names_->items["t"] = {kind::time, names_->time};
+        names_->items["pi"] = {kind::pi};
+    }
+    [[nodiscard]] unit unit_in(toml_section::entry const& e, std::string const& text) const {
+        unit const u(text);
+        if (!u.fault().empty())
+            source_->fail(e.value, "this is no unit: " + u.fault(),
+                          "write one as in \"kg m^2/s\", \"1\" for none");
+        return u;
+    }
+    /// The unit that a table states: its text and itself; "1" where there is none.
+    [[nodiscard]] std::optional<std::string> stated_unit(toml_section const& of) const {
+        auto const* e = of.find("unit");
+        if (e == nullptr) return std::nullopt;
+        auto const text = std::string(of.string_of(*e));
+        (void)unit_in(*e, text);
+        return text;
+    }
+
+    void read_states() {
+        auto const states = whole_.section("states");
+        if (!states || states->entries().empty())
+            source_->fail(states ? whole_.find("states")->value : source_->text().size(),
+                          "the model has no states",
+                          "add a table [states] with lines such as: w = \"50 rad/s\"");
+        for (auto const& e : states->entries()) {
+            model_description::state s;
+            s.name = e.name;
+            stated_quantity range;
+            if (e.node->is_table()) {
+                auto const of = states->within(e);
+                of.allow({"unit", "range", "equation"});
+                auto const* r = of.find("range");
+                if (r == nullptr)
+                    source_->fail(e.value, "the state '" + e.name + "' has no range",
+                                  "say how large it is: range = 8 for |x| <= 8, or [0, 5]");
+                range = of.quantity(*r);
+                s.unit = stated_unit(of).value_or(range.in ? range.unit_text : "1");
+                s.equation = of.text("equation").value_or("");
+            } else {
+                range = states->quantity(e);
+                s.unit = range.in ? range.unit_text : "1";
+            }
+            if (!range.is_range) range.lower = -magnitude(range.upper);
+            if (!range.is_range) range.upper = magnitude(range.upper);
+            auto const bounds = converted(range, s.unit, "the state '" + e.name + "'").enclosure;
+            s.limit = {bounds.lower(), bounds.upper()};
+            names_->declare(*source_, e.name,
+                            {kind::state, unit(s.unit), about().states.size(), e.key});
+            about().states.push_back(std::move(s));
+        }
+    }
+    void read_inputs() {
+        auto const inputs = whole_.section("inputs");
+        if (!inputs) return;
+        for (auto const& e : inputs->entries()) {
+            model_description::item u{e.name, ""};
+            if (e.node->is_table()) {
+                auto const of = inputs->within(e);
+                of.allow({"unit", "delay"});
+                u.unit = stated_unit(of).value_or("1");
+                if (auto const* d = of.find("delay"))
+                    delays_.push_back(
+                        {about().inputs.size(), false, std::string(of.string_of(*d)), d->value});
+            } else {
+                u.unit = inputs->string_of(e);
+                (void)unit_in(e, u.unit);
+            }
+            names_->declare(*source_, e.name,
+                            {kind::input, unit(u.unit), about().inputs.size(), e.key});
+            about().inputs.push_back(std::move(u));
+        }
+    }
+
+    void read_constants() {
+        auto const constants = whole_.section("constants");
+        if (!constants) return;
+        std::vector<interval> prior;
+        for (auto const& e : constants->entries()) {
+            std::optional<stated_quantity> value, range;
+            std::optional<std::string> in;
+            if (e.node->is_table()) {
+                auto const of = constants->within(e);
+                of.allow({"unit", "value", "prior", "follows"});
+                in = stated_unit(of);
+                if (auto const* v = of.find("value")) value = of.quantity(*v);
+                if (auto const* p = of.find("prior")) range = of.quantity(*p);
+                if (auto const* f = of.find("follows"))
+                    follows_.push_back({e.name, used(of.formula_of(*f)), f->value});
+                if (value && value->is_range)
+                    source_->fail(value->position, "bounds are no value", "call them prior");
+            } else {
+                auto const q = constants->quantity(e);
+                (q.is_range ? range : value) = q;
+            }
+            if (!value && !range)
+                source_->fail(e.value, "the constant '" + e.name + "' has no value",
+                              "write one as in \"1.297 kg\", or a prior as in \"[1, 2] kg\"");
+            add_constant(e, value, range, in, prior);
+        }
+        result_.prior = box(std::move(prior));
+    }
+    void add_constant(toml_section::entry const& e, std::optional<stated_quantity> value,
+                      std::optional<stated_quantity> const& range, std::optional<std::string> in,
+                      std::vector<interval>& prior) {
+        auto const what = "the constant '" + e.name + "'";
+        for (auto const& q : {value, range})
+            if (!in && q && q->in) in = q->unit_text;
+        auto const unit_text = in.value_or("1");
+        model_description::constant c{e.name, unit_text, {}};
+        if (!value) { // the middle of the prior
+            static auto const half = *exact_decimal::parse("0.5");
+            value = range;
+            value->lower = value->upper = (range->lower + range->upper).times(half);
+        }
+        c.nominal = converted(*value, unit_text, what);
+        if (range) {
+            auto const bounds = converted(*range, unit_text, what).enclosure;
+            if (!(bounds.lower() <= c.nominal.nearest && c.nominal.nearest <= bounds.upper()))
+                source_->fail(value->position, "the value is outside the prior",
+                              "correct one of them");
+            result_.unknown.push_back(e.name);
+            prior.push_back(bounds);
+        }
+        names_->declare(*source_, e.name,
+                        {kind::constant, unit(unit_text), about().constants.size(), e.key});
+        about().constants.push_back(std::move(c));
+    }
+    /// A stated quantity in a unit: its bounds rounded outward, and its middle.
+    [[nodiscard]] literal converted(stated_quantity const& q, std::string const& to,
+                                    std::string const& what) const {
+        auto const ratio = q.in ? q.in->in(unit(to)) : unit::ratio{};
+        auto const c = ratio ? unit_conversion::of(*ratio) : std::nullopt;
+        if (!c)
+            source_->fail(q.position,
+                          what + " has the unit " + unit_words(unit(to)) + ", and this is in " +
+                              unit_words(*q.in),
+                          "write it in another unit");
+        auto const r = (*c)(q.lower, q.upper);
+        bool const as_it_is = ratio->is_one();
+        auto const bounds = as_it_is ? enclose(q.lower, q.upper)
+                            : r      ? enclose(r->value - r->rounding, r->value + r->rounding)
+                                     : std::nullopt;
+        if (!bounds)
+            source_->fail(q.position, "the number is beyond all doubles", "use another unit");
+        auto const middle = q.is_range ? std::optional(mid(*bounds))
+                            : as_it_is ? nearest(q.lower)
+                                       : nearest(r->value);
+        return {*bounds, middle.value_or(mid(*bounds))};
+    }
+
+    void read_parts() {
+        auto const add = [&](std::string const& name, formula is, std::size_t position) {
+            names_->declare(*source_, name, {kind::part, {}, names_->parts.size(), position});
+            names_->parts.push_back({name, used(std::move(is))});
+            if (names_->parts.size() > most_parts)
+                source_->fail(position, "more than 500 named parts", "write fewer, longer ones");
+        };
+        if (auto const let = whole_.section("let"))
+            for (auto const& e : let->entries()) add(e.name, let->formula_of(e), e.key);
+        if (whole_.find("equations") == nullptr)
+            source_->fail(source_->text().size(), "the model has no equations",
+                          "add: equations = \"w' = -b*w/J\", in front of all tables");
+        for (auto& s : stated_equations()) {
+            if (s.how != '=')
+                source_->fail(s.position, "the equations of a model have = alone",
+                              "+= and the like stand in effects");
+            if (!s.is_rate) {
+                add(s.name, std::move(s.by), s.position);
+            } else {
+                s.by = used(std::move(s.by));
+                equations_.push_back(std::move(s));
+            }
+        }
+    }
+    /// Of a string, or of a table, where w = "..." of a state is w'.
+    [[nodiscard]] std::vector<statement> stated_equations() const {
+        if (!whole_.find("equations")->node->is_table()) return whole_.statements("equations");
+        std::vector<statement> result;
+        auto const section = whole_.within(*whole_.find("equations"));
+        for (auto const& e : section.entries()) {
+            statement s;
+            s.name = e.name;
+            s.position = e.key;
+            s.is_rate = s.name.ends_with('\'');
+            if (s.is_rate) s.name.pop_back();
+            auto const known = names_->items.find(s.name);
+            if (known != names_->items.end() && known->second.what == kind::state) s.is_rate = true;
+            s.by = section.formula_of(e);
+            result.push_back(std::move(s));
+        }
+        return result;
+    }
+    [[nodiscard]] formula used(formula f) {
+        names_->use(f);
+        return f;
+    }
+
+    /// Enters all formulas into the graph.
+    void record() {
+        auto& model = result_.model;
+        std::vector<asked> domains;
+        named_values values(
+            *source_, *names_,
+            [&](std::string const&, model_names::item const& item) {
+                auto const op = item.what == kind::state      ? operation::state
+                                : item.what == kind::input    ? operation::input
+                                : item.what == kind::constant ? operation::constant
+                                                              : operation::time;
+                return expression(model.g, model.g.leaf(op, item.index));
+            },
+            {},
+            [&](operation op, expression const& x, std::size_t position) {
+                domains.push_back({op, x.in(model.g), position});
+            });
+        for (std::size_t k = 0; k < names_->parts.size(); ++k)
+            (void)values.part(k, names_->parts[k].is.begin());
+        record_rates(values);
+        record_outputs(values);
+        for (auto const& f : follows_) {
+            auto const& c = about().constants[names_->items.find(f.name)->second.index];
+            try {
+                model_detail::add_derived(model, f.name,
+                                          values.fitted(f.is, unit(c.unit), "'" + f.name + "'"));
+            } catch (model_text_error const&) {
+                throw;
+            } catch (std::invalid_argument const& error) {
+                source_->fail(f.position, error.what(), "correct the formula, or the value");
+            }
+        }
+        add_delays();
+        require_domains(domains);
+    }
+    void record_rates(named_values& values) {
+        std::vector<statement const*> of(about().states.size());
+        for (auto const& s : equations_) {
+            auto const found = names_->items.find(s.name);
+            if (found == names_->items.end() || found->second.what != kind::state)
+                source_->fail(s.position, "'" + s.name + "' is no state",
+                              nearest_name(s.name, names_of_states()));
+            auto const*& one = of[found->second.index];
+            if (one != nullptr)
+                source_->fail(s.position, "a second equation for " + s.name + "'",
+                              "each state has one");
+            one = &s;
+        }
+        for (std::size_t i = 0; i < of.size(); ++i) {
+            auto const& s = about().states[i];
+            auto const& item = names_->items.find(s.name)->second;
+            if (of[i] == nullptr)
+                source_->fail(item.position, "the state '" + s.name + "' has no equation",
+                              "add one to the equations: " + s.name + "' = ...");
+            auto const rate =
+                values.fitted(of[i]->by, item.in.times(names_->time, -1), s.name + "'");
+            result_.model.rate.push_back(rate.in(result_.model.g));
+        }
+    }
+    [[nodiscard]] std::vector<std::string> names_of_states() {
+        std::vector<std::string> names;
+        for (auto const& s : about().states) names.push_back(s.name);
+        return names;
+    }
+    void record_outputs(named_values& values) {
+        auto const outputs = whole_.section("outputs");
+        if (!outputs || outputs->entries().empty())
+            source_->fail(source_->text().size(), "the model has no outputs",
+                          "add a table [outputs] with lines such as: w = \"w\"");
+        for (auto const& e : outputs->entries()) {
+            formula is;
+            std::optional<std::string> in;
+            if (e.node->is_table()) {
+                auto const of = outputs->within(e);
+                of.allow({"unit", "equation", "delay"});
+                in = stated_unit(of);
+                if (auto const* f = of.find("equation"))
+                    is = of.formula_of(*f);
+                else
+                    is.nodes.push_back(
+                        {formula::kind::name, e.key, e.key, operation::literal, {}, e.name});
+                if (auto const* d = of.find("delay"))
+                    delays_.push_back(
+                        {about().channels.size(), true, std::string(of.string_of(*d)), d->value});
+            } else {
+                is = outputs->formula_of(e);
+            }
+            names_->use(is);
+            auto const value = values(is);
+            if (!in) in = unit_text_of(is, value.in);
+            auto const shown = values.fitted(is, unit(*in), "the output '" + e.name + "'");
+            about().channels.push_back({e.name, *in});
+            result_.model.observe.push_back(shown.in(result_.model.g));
+        }
+    }
+    /// As it is written where the formula is a name alone.
+    [[nodiscard]] std::string unit_text_of(formula const& f, unit const& in) {
+        if (f.nodes.size() == 1 && f.nodes[0].what == formula::kind::name) {
+            auto const& item = names_->items.find(f.nodes[0].name)->second;
+            if (item.what == kind::state) return about().states[item.index].unit;
+            if (item.what == kind::input) return about().inputs[item.index].unit;
+            if (item.what == kind::constant) return about().constants[item.index].unit;
+        }
+        return in.text();
+    }
+    void add_delays() {
+        for (auto const& d : delays_) {
+            auto const found = names_->items.find(d.constant);
+            if (found == names_->items.end() || found->second.what != kind::constant)
+                source_->fail(d.position, "a delay is the name of a constant",
+                              "add the constant to [constants]");
+            auto const& c = about().constants[found->second.index];
+            auto const ratio = unit(c.unit).in(names_->time);
+            if (!ratio || !ratio->is_one())
+                source_->fail(d.position, "the delay '" + c.name + "' is in " + c.unit,
+                              "give it the model's unit of time, " + about().time_unit);
+            auto const least = range_of(found->second.index).lower();
+            if (!(least >= 0))
+                source_->fail(d.position, "the delay '" + c.name + "' may be below 0",
+                              "correct its value or its prior");
+            names_->used.insert(d.constant);
+            auto& to = d.of_output ? result_.model.channel_delays : result_.model.input_memory;
+            to.push_back({d.index, found->second.index, memory_kind::delay});
+        }
+    }
+    /// The prior of a constant, or its value.
+    [[nodiscard]] interval range_of(std::size_t constant) {
+        auto const& c = about().constants[constant];
+        auto const at = std::find(result_.unknown.begin(), result_.unknown.end(), c.name);
+        if (at == result_.unknown.end()) return c.nominal.enclosure;
+        return result_.prior[static_cast<std::size_t>(at - result_.unknown.begin())];
+    }
+
+    struct asked {
+        operation op;
+        node_id of;
+        std::size_t position;
+    };
+    /// Refuses functions whose arguments are outside their domains for all constants of the prior,
+    /// and all states of the own ranges.
+    void require_domains(std::vector<asked> const& domains) {
+        if (domains.empty()) return;
+        leaf_ranges at;
+        constexpr double largest = std::numeric_limits<double>::max();
+        at.time = interval(0, largest);
+        at.states = result_.start_ranges();
+        std::vector<interval> constants;
+        for (std::size_t k = 0; k < about().constants.size(); ++k) constants.push_back(range_of(k));
+        at.constants = box(std::move(constants));
+        at.inputs = box(std::vector<interval>(about().inputs.size(), interval::whole()));
+        std::vector<node_id> nodes;
+        for (auto const& d : domains) nodes.push_back(d.of);
+        graph_range ranges(result_.model.g, nodes);
+        ranges.evaluate(at);
+        for (auto const& d : domains) {
+            auto const& x = ranges.value(d.of);
+            if (is_empty(x) || ranges.undefined(d.of)) continue;
+            bool const never = d.op == operation::sqrt  ? x.upper() < 0
+                               : d.op == operation::log ? x.upper() <= 0
+                                                        : x.lower() == 0 && x.upper() == 0;
+            if (never)
+                source_->fail(d.position,
+                              d.op == operation::div
+                                  ? "a division by 0"
+                                  : std::string(name(d.op)) + " of what is " +
+                                        (d.op == operation::sqrt ? "below 0" : "not above 0") +
+                                        " over the whole prior",
+                              "correct the formula, the prior or the ranges of the states");
+        }
+    }
+    /// Refuses constants and named parts that stand in no formula.
+    void require_used() {
+        for (auto const& [name, item] : names_->items) {
+            bool const needed = item.what == kind::constant || item.what == kind::part;
+            if (needed && !names_->used.contains(name))
+                source_->fail(item.position, "'" + name + "' stands in no formula",
+                              "use it, or leave it out");
+        }
+    }
+
+    struct delay {
+        std::size_t index;
+        bool of_output;
+        std::string constant;
+        std::size_t position;
+    };
+    struct relation {
+        std::string name;
+        formula is;
+        std::size_t position;
+    };
+
+    std::shared_ptr<model_source const> source_;
+    std::shared_ptr<model_names> names_;
+    toml_section whole_;
+    text_model result_;
+    std::vector<statement> equations_;
+    std::vector<delay> delays_;
+    std::vector<relation> follows_;
+};
+
+} // namespace sivid::text_detail
+
+#endif
