@@ -192,7 +192,7 @@ tally sweep(std::uint64_t first, std::uint64_t count, bool wide_starts) {
 TEST_CASE("no claim contradicts a planted truth") { sweep(1, support::swept(25U, 60U), false); }
 
 TEST_CASE("no claim contradicts a planted truth with uncertain starts") {
-    auto const t = sweep(201, support::swept(12U, 40U), true);
+    auto const t = sweep(201, support::swept(25U, 40U), true);
     CHECK(2 * t.other_starts > t.problems); // neither the fit's starts nor the true ones
 }
 
