@@ -264,7 +264,8 @@ private:
         auto how = c.how;
         if (how.set.empty()) // ranges are wide
             how.set = how.method == "taylor" ? "taylor-model" : "first-order";
-        prediction_options options{.cells = 300};
+        // Parts end it; a loaded machine must not change the answer.
+        prediction_options options{.seconds = 60, .cells = 300};
         apply(how, options.run);
         auto const found = predict(p, options);
         using traits = interval_traits<interval>;
