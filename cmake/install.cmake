@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Install rules, in two components: sivid_headers (headers, package files for find_package(sivid) and pkg-config, guides)
-# and sivid_programs (sivid-hovercraft, sivid-import and their data). `cmake --install <build> --component ...` takes one.
+# and sivid_programs (sivid, sivid-hovercraft, sivid-import and their data). `cmake --install <build> --component ...` takes one.
 
 include(GNUInstallDirs)
 include("${CMAKE_CURRENT_LIST_DIR}/version_file.cmake")
@@ -109,12 +109,16 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DATA
 # another kind). A tree in which nothing is built installs its headers all the same.
 function(sivid_install_program target)
     string(REPLACE sivid- "" name "${target}")
+    set(program "sivid-${name}")
+    if(target STREQUAL "sivid")
+        set(program sivid)
+    endif()
     install(PROGRAMS "$<TARGET_FILE:${target}>" DESTINATION "${CMAKE_INSTALL_BINDIR}"
-            RENAME "sivid-${name}${CMAKE_EXECUTABLE_SUFFIX}" COMPONENT sivid_programs OPTIONAL)
+            RENAME "${program}${CMAKE_EXECUTABLE_SUFFIX}" COMPONENT sivid_programs OPTIONAL)
     foreach(folder IN LISTS ARGN)
         install(DIRECTORY "${folder}/" DESTINATION "${CMAKE_INSTALL_DATADIR}/sivid/${name}" COMPONENT sivid_programs)
     endforeach()
-    install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/sivid-${name}.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
+    install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/${program}.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
             COMPONENT sivid_programs)
     install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
             DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid" COMPONENT sivid_programs)
