@@ -51,7 +51,8 @@ set(CPACK_DEBIAN_SIVID_HEADERS_PACKAGE_SUGGESTS "libcli11-dev, libtbb-dev, libmp
 set(CPACK_COMPONENT_SIVID_PROGRAMS_DESCRIPTION
 "set-inversion validated identification (programs)
 sivid-hovercraft identifies, checks, predicts and diagnoses a hovercraft from
-its records, with proof, and writes reports; sivid-import turns tables, MATLAB
+its records, with proof; sivid does so with a model of any robot that is a
+text; both write reports. sivid-import turns tables, MATLAB
 files and logs of serial streams into data sets.")
 set(CPACK_DEBIAN_SIVID_PROGRAMS_PACKAGE_NAME sivid)
 set(CPACK_DEBIAN_SIVID_PROGRAMS_PACKAGE_SECTION science)
