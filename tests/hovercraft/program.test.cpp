@@ -492,7 +492,7 @@ TEST_CASE("identify joins effects of the catalogue to the model, and check joins
     CHECK_THAT(delayed.out, ContainsSubstring("yard_test with input_delay: "));
     // A term of an equation needs no catalogue.
     CHECK_THAT(with("v'~2*speed").err, ContainsSubstring("no 'speed'; known: t, u, v, r, "));
-    CHECK_THAT(with("v'~2*(u").err, ContainsSubstring("character 8: ')' is needed here"));
+    CHECK_THAT(with("v'~2*(u").err, ContainsSubstring("character 8: ')' is missing"));
     CHECK(with("v'~2*(u").code == 2);
 }
 

@@ -17,12 +17,6 @@
 
 #ifndef SIVID_COMPILED
 #include <sivid/paving/impl/complete.ipp>
-
-namespace sivid::paving_detail {
-
-inline bool const is_complete = (known_parts = all_parts(), true);
-
-} // namespace sivid::paving_detail
 #endif
 
 #endif

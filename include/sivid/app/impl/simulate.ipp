@@ -38,6 +38,10 @@ namespace sivid::app {
 SIVID_DECL int run(robot const& r, describe_command const& c) {
     if (c.unknown.empty()) {
         std::cout << (c.dot ? to_dot(r.model) : describe(r.model));
+        for (std::size_t k = 0; !c.dot && k < r.effects.size(); ++k) {
+            auto const& e = r.effects[k];
+            std::cout << "effect " << e.name << (e.about.empty() ? "" : ": ") << e.about << "\n";
+        }
         return done;
     }
     for (auto const& name : c.unknown)
@@ -265,7 +269,7 @@ private:
         if (how.set.empty()) // ranges are wide
             how.set = how.method == "taylor" ? "taylor-model" : "first-order";
         // Parts end it; a loaded machine must not change the answer.
-        prediction_options options{.seconds = 60, .cells = 300};
+        prediction_options options{.seconds = 600, .parts = 32, .cells = 300};
         apply(how, options.run);
         auto const found = predict(p, options);
         using traits = interval_traits<interval>;

@@ -18,6 +18,8 @@ program_parts const& parts_of_program() {
     static program_parts const all = all_parts();
     return all;
 }
+#else
+inline bool const is_complete = (known_parts = all_parts(), true);
 #endif
 
 } // namespace sivid::paving_detail
