@@ -130,9 +130,10 @@ bool alike(std::size_t a, std::size_t b) {
     return more - less <= std::max<std::size_t>(2, more / 10);
 }
 
-/// @param find  (units) -> work
+/// @param find   (units) -> work
+/// @param share  of its width by which a side of the hull may differ
 template <class Find>
-void compare(std::vector<units> const& all, Find const& find) {
+void compare(std::vector<units> const& all, Find const& find, double share = 0.01) {
     auto const base = find(units{});
     for (auto const& in : all) {
         CAPTURE(in.name, in.state, in.input);
@@ -142,7 +143,7 @@ void compare(std::vector<units> const& all, Find const& find) {
         CHECK(alike(found.integrations, base.integrations));
         for (std::size_t j = 0; j < base.hull.size(); ++j)
             CHECK(std::abs(width(found.hull[j]) - width(base.hull[j])) <=
-                  0.01 * width(base.hull[j]));
+                  share * width(base.hull[j]));
     }
 }
 std::vector<units> few() {
@@ -172,10 +173,15 @@ TEST_CASE("with dry friction in the model, too") {
 }
 
 TEST_CASE("with dry friction in the model, a long record is searched alike, too", "[.long]") {
-    compare({{1e3, 1, 1, "ms"}, {1e6, 1, 1, "us"}, {1.0 / 3600, 1e-6, 1e6, "h"}},
-            [](units const& in) {
-                return identified(in, true, 3000, {20, 200});
-            });
+    std::vector<units> const all{
+        {1e3, 1, 1, "ms"}, {1e6, 1, 1, "us"}, {1.0 / 3600, 1e-6, 1e6, "h"}};
+    auto const after = [](std::size_t boxes) {
+        return [boxes](units const& in) { return identified(in, true, boxes, {20, 200}); };
+    };
+    compare(all, after(128));
+    // Programs leave 1e-9 more or less in other units; after some hundred boxes their order parts,
+    // and a side ends by one box more or less.
+    compare(all, after(3000), 0.03);
 }
 
 TEST_CASE("identification is the same in all units", "[.long]") {
