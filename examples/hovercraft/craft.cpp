@@ -47,8 +47,7 @@ int run_influence(int argc, char** argv) {
     std::vector<std::string> freed;
     std::vector<std::string> chosen{"as-printed", "unit-vector"};
     CLI::App app{"Table 2.2 of the report with proof: how far each constant moves each equation"};
-    app.add_option("--out", out, "folder for influence.html and influence.csv")
-        ->required();
+    app.add_option("--out", out, "folder for influence.html and influence.csv")->required();
     app.add_option("--free", freed, "constants to rank although they follow from others, such as A")
         ->delimiter(',');
     app.add_option("--lift", chosen[0])->check(CLI::IsMember({"as-printed", "rudder"}));

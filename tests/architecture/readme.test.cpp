@@ -99,7 +99,8 @@ std::string const& sources() {
         std::string text;
         std::filesystem::path const root{SIVID_SOURCE_DIR};
         for (auto const* folder :
-             {"examples", "benchmarks", "scripts", "tests/machines", "tests/package", "cmake", "include/sivid/io", "include/sivid/app"})
+             {"examples", "benchmarks", "scripts", "tests/machines", "tests/package", "cmake",
+              "include/sivid/io", "include/sivid/app"})
             for (auto const& e : std::filesystem::recursive_directory_iterator{root / folder}) {
                 auto const extension = e.path().extension();
                 if (e.is_regular_file() &&

@@ -24,10 +24,9 @@ namespace architecture {
 namespace fs = std::filesystem;
 
 inline constexpr std::array<std::string_view, 17> floors{
-    "number",    "space",     "measurement", "model",     "approximate",
-    "enclosure", "paving",    "decision",    "diagnosis", "io",
-    "verifier",  "importing", "report",      "text",      "parallel",
-    "cluster",   "app"};
+    "number", "space",    "measurement", "model",   "approximate", "enclosure",
+    "paving", "decision", "diagnosis",   "io",      "verifier",    "importing",
+    "report", "text",     "parallel",    "cluster", "app"};
 inline constexpr std::size_t core_floors = 9;
 /// Headers outside of floors that each floor may include.
 inline constexpr std::array<std::string_view, 4> common{
@@ -124,9 +123,9 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
 /// apart, behind a condition and with a form in standard C++; "" if nothing. Attributes in brackets
 /// are standard: who does not know them passes them over.
 inline std::string_view compiler_word(std::string const& line, std::string_view name) {
-    static std::set<std::string_view> const apart{
-        "machine.hpp",     "vectors.hpp",         "integers.hpp", "rounding.hpp",
-        "pack_target.hpp", "pack_arithmetic.hpp"};
+    static std::set<std::string_view> const apart{"machine.hpp",     "vectors.hpp",
+                                                  "integers.hpp",    "rounding.hpp",
+                                                  "pack_target.hpp", "pack_arithmetic.hpp"};
     if (starts_with(name, "sivid/number/") && apart.count(name.substr(name.rfind('/') + 1)) > 0)
         return {};
     auto const code = line.substr(0, line.find("//"));
@@ -167,8 +166,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/report/impl/identification_report.ipp", {"simulate/simulate.hpp"}},
         {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/detail/counterexample.hpp"}},
         {"sivid/verifier/impl/diagnosis_check.ipp", {"fit/detail/counterexample.hpp"}},
-        {"sivid/verifier/claim/detail/witness_checks.hpp",
-         {"fit/detail/counterexample.hpp"}}};
+        {"sivid/verifier/claim/detail/witness_checks.hpp", {"fit/detail/counterexample.hpp"}}};
     std::string_view const floor = "sivid/approximate/";
     if (!starts_with(other, floor) || starts_with(includer, floor)) return true;
     auto const what = other.substr(floor.size());

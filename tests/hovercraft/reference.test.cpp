@@ -7,8 +7,8 @@
 #include "support/flow_simulation.hpp"
 
 #include <sivid/app/generate.hpp>
-#include <sivid/enclosure/tube.hpp>
 #include <sivid/enclosure/methods.hpp>
+#include <sivid/enclosure/tube.hpp>
 #include <sivid/io/dataset/model_names.hpp>
 
 #include <array>

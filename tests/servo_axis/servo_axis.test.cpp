@@ -37,11 +37,10 @@ std::string simulated_record(std::vector<double> const& truth) {
     }
     std::vector<sivid::signal> const inputs{
         sivid::sampled_signal(time, force, sivid::interpolation::linear)};
-    auto const motion =
-        sivid::simulate(std::make_shared<sivid::approximate_model const>(
-                            sivid::record_model(linear_axis{}),
-                            sivid::parameter_choice{{"M", "F_v"}, {}}, inputs),
-                        inputs, {0.1, 0.05}, truth, 0, time, {1e-11});
+    auto const motion = sivid::simulate(
+        std::make_shared<sivid::approximate_model const>(
+            sivid::record_model(linear_axis{}), sivid::parameter_choice{{"M", "F_v"}, {}}, inputs),
+        inputs, {0.1, 0.05}, truth, 0, time, {1e-11});
     std::string text = "force_N,extra,position_m,t_s\n"; // columns are found by their headings
     for (std::size_t k = 0; k < time.size(); ++k) {
         auto const q = sivid::exact_decimal::shortest(std::round(1e8 * motion.states[k][0]) / 1e8);
@@ -68,10 +67,11 @@ TEST_CASE("a simulated axis is identified from its windows", "[servo_axis]") {
     std::vector<double> const truth{90, 210};
     folder.write("estimation_200Hz.csv", simulated_record(truth));
     auto const data = (folder.path() / "data").string(), out = (folder.path() / "out").string();
-    REQUIRE(run_program(SERVO_AXIS_PROGRAM, {"windows", folder.path().string(), "--out", data})
-                .code == 0);
-    auto const found = run_program(SERVO_AXIS_PROGRAM, {"diagnose", data, "--out", out, "--budget", "20",
-                                                        "--quiet"});
+    REQUIRE(
+        run_program(SERVO_AXIS_PROGRAM, {"windows", folder.path().string(), "--out", data}).code ==
+        0);
+    auto const found = run_program(SERVO_AXIS_PROGRAM,
+                                   {"diagnose", data, "--out", out, "--budget", "20", "--quiet"});
     INFO(found.err);
     auto const result = nlohmann::json::parse(text_of(fs::path{out} / "model/result.json"));
     CHECK(result["verdict"] == "consistent");
@@ -112,15 +112,17 @@ TEST_CASE("the real axis: offset and friction explain most, the direction the re
     temporary_folder const folder;
     auto const data = (folder.path() / "data").string();
     auto const out = folder.path() / "out";
-    REQUIRE(run_program(SERVO_AXIS_PROGRAM,
-                        {"windows", real_record().string(), "--out", data}).code == 0);
+    REQUIRE(
+        run_program(SERVO_AXIS_PROGRAM, {"windows", real_record().string(), "--out", data}).code ==
+        0);
 #ifdef SIVID_SANITIZED
     auto const patience = "1200";
 #else
     auto const patience = "300";
 #endif
-    REQUIRE(run_program(SERVO_AXIS_PROGRAM, {"diagnose", data, "--quiet", "--budget", patience, "--out",
-                                             out.string()}).code == 0);
+    REQUIRE(run_program(SERVO_AXIS_PROGRAM,
+                        {"diagnose", data, "--quiet", "--budget", patience, "--out", out.string()})
+                .code == 0);
     auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
     CHECK(d["gap"]["verdict"] == "certified");
     CHECK(d["where"][0]["name"] == "force balance");

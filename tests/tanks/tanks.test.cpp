@@ -30,7 +30,9 @@ sivid::identification_problem constant_record(double voltage, int samples) {
         e.measurements.push_back({4.0 * k, 0, sivid::interval(4.8, 5.2)});
     e.inputs = {sivid::sampled_signal({0.0}, {voltage}, sivid::interpolation::hold)};
     sivid::interval const prior(0.02, 0.1);
-    return {sivid::record_model(cascaded_tanks{}), {{"k1", "k3", "k4"}, {}}, {prior, prior, prior},
+    return {sivid::record_model(cascaded_tanks{}),
+            {{"k1", "k3", "k4"}, {}},
+            {prior, prior, prior},
             {e}};
 }
 double last_level(sivid::identification_problem const& problem, std::vector<double> const& p) {
@@ -70,8 +72,10 @@ TEST_CASE("the real tanks: where, which, and what stays", "[.long][measured]") {
     auto const data = (folder.path() / "data").string();
     auto const out = folder.path() / "out";
     REQUIRE(run_program(TANKS_PROGRAM,
-                        {"import", (folder.path() / "mapping.json").string(), "--out", data}).code == 0);
-    REQUIRE(run_program(TANKS_PROGRAM, {"diagnose", data, "--quiet", "--budget", "600", "--out", out.string()})
+                        {"import", (folder.path() / "mapping.json").string(), "--out", data})
+                .code == 0);
+    REQUIRE(run_program(TANKS_PROGRAM,
+                        {"diagnose", data, "--quiet", "--budget", "600", "--out", out.string()})
                 .code == 0);
     auto const d = nlohmann::json::parse(text_of(out / "diagnosis.json"));
     CHECK(d["gap"]["verdict"] == "certified");
@@ -82,5 +86,6 @@ TEST_CASE("the real tanks: where, which, and what stays", "[.long][measured]") {
     CHECK(there);
     auto const closest = d["remainder"]["effects"];
     CHECK(std::find(closest.begin(), closest.end(), "overflow") != closest.end());
-    CHECK(d["causes"][0]["holdout"]["rmse_after"]["y"] < d["causes"][0]["holdout"]["rmse_before"]["y"]);
+    CHECK(d["causes"][0]["holdout"]["rmse_after"]["y"] <
+          d["causes"][0]["holdout"]["rmse_before"]["y"]);
 }

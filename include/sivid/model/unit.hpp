@@ -39,7 +39,8 @@ public:
     [[nodiscard]] unit times(unit const& other, int n) const;
 
     /// The power above/below of it, below > 0: `power(1, 2)` of m^2 is m.
-    /// @returns  nothing where a power of a symbol would not be a whole count of twelfths, or beyond
+    /// @returns  nothing where a power of a symbol would not be a whole count of twelfths, or
+    /// beyond
     ///           99
     [[nodiscard]] std::optional<unit> power(int above, int below = 1) const;
 

@@ -56,7 +56,8 @@ void sweep(std::uint64_t seed, int formulas) {
 
 TEST_CASE("rewritten formulas enclose what was written") { sweep(101, 1500); }
 TEST_CASE("rewritten formulas enclose what was written, longer", "[.long]") {
-    for (std::uint64_t seed = 1000; seed < 1000 + support::swept(12U, 40U); ++seed) sweep(seed, 3000);
+    for (std::uint64_t seed = 1000; seed < 1000 + support::swept(12U, 40U); ++seed)
+        sweep(seed, 3000);
 }
 
 TEST_CASE("rewriting never enlarges the domain") {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a program from headers alone has: with COMPLETE all, without it runs in lanes. It says which.
+// What a program from headers alone has: with COMPLETE all, without it runs in lanes. It says
+// which.
 #ifdef COMPLETE
 #include <sivid/paving/complete.hpp>
 #endif
 #include <sivid/paving/identify.hpp>
-
 
 #include <iostream>
 #include <stdexcept>

@@ -50,8 +50,8 @@ namespace sivid {
 
 /// Whether the lines of a file are of several kinds, as the messages of several sensors in one log:
 /// a text that stands in several lines but not in all of them, in a column that nobody reads; or a
-/// few whole numbers there that take turns from line to line, as the numbers of sensors do. Which of
-/// them count is then a choice, and no import makes it.
+/// few whole numbers there that take turns from line to line, as the numbers of sensors do. Which
+/// of them count is then a choice, and no import makes it.
 class line_kinds {
 public:
     /// @param columns  how many there are
@@ -116,9 +116,8 @@ private:
         /// Whether most lines differ from the one before, and each number comes again.
         [[nodiscard]] bool taken() const {
             return !other_ && seen_.size() > 1 && 2 * changes_ > lines_ &&
-                   std::all_of(seen_.begin(), seen_.end(), [](auto const& n) {
-                       return n.second > 1;
-                   });
+                   std::all_of(seen_.begin(), seen_.end(),
+                               [](auto const& n) { return n.second > 1; });
         }
         [[nodiscard]] std::map<std::string, std::size_t> const& numbers() const { return seen_; }
 
@@ -139,8 +138,8 @@ private:
                                     std::string const& heading, std::string const& file) {
         throw input_error{
             {.file = file, .column = c + 1, .heading = heading == "_" ? std::string{} : heading},
-            text_of("the lines are of several kinds: ", what, " in a column that is not mapped: ",
-                    listed(column)),
+            text_of("the lines are of several kinds: ", what,
+                    " in a column that is not mapped: ", listed(column)),
             text_of("state in the mapping's source which count, as in \"lines\": {\"column\": ",
                     std::to_string(c + 1), ", \"is\": \"", most_frequent(column).first,
                     "\"}, or \"lines\": \"all\" if they are of one kind")};
