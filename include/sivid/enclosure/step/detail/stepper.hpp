@@ -142,8 +142,8 @@ private:
         double until;          ///< end of the last attempt
         bool smooth = true;    ///< what to try: false: a set-valued step of first order
         bool unsolved = false; ///< an implicit formula found no solution when it was last tried
-        std::size_t start_order = 0;              ///< of the series at X
-        std::optional<basic_box<I>> undefined_on; ///< in the last attempt
+        std::size_t start_order = 0;                ///< of the series at X
+        std::optional<basic_box<I>> undefined_on{}; ///< in the last attempt
 
         [[nodiscard]] double end() const { return h >= limit - set.time ? limit : set.time + h; }
         [[nodiscard]] bool crosses(tube_step<I> const& step) const {
