@@ -85,70 +85,85 @@ signal waving(varied_input const& u, double duration, double mean, double amplit
     return evenly(u, duration, std::move(values));
 }
 
+inline constexpr double whole_turn = 2 * std::numbers::pi;
+
+inline varied_shape constant_shape() {
+    return {"constant",
+            [](varied_input const& u, double, std::string const&) {
+                return std::vector{level(u, "level")};
+            },
+            [](varied_input const& u, double T, double const* s) {
+                return through(u, {0, T}, {s[0], s[0]});
+            }};
+}
+inline varied_shape ramp_shape() {
+    return {"ramp",
+            [](varied_input const& u, double, std::string const&) {
+                return std::vector{level(u, "begin"), level(u, "end")};
+            },
+            [](varied_input const& u, double T, double const* s) {
+                return through(u, {0, T}, {s[0], s[1]});
+            }};
+}
+inline varied_shape steps_shape() {
+    return {"steps",
+            [](varied_input const& u, double T, std::string const& time) {
+                return std::vector{level(u, "first level"),
+                                   level(u, "second level"),
+                                   level(u, "third level"),
+                                   {"first step of " + u.name, time, 0.05 * T, 0.5 * T},
+                                   {"second step of " + u.name, time, 0.55 * T, 0.95 * T}};
+            },
+            [](varied_input const& u, double T, double const* s) {
+                double const rise = 0.01 * T; // no actuator jumps
+                return through(u, {0, s[3], s[3] + rise, s[4], s[4] + rise, T},
+                               {s[0], s[0], s[1], s[1], s[2], s[2]});
+            }};
+}
+inline varied_shape sine_shape() {
+    return {"sine",
+            [](varied_input const& u, double T, std::string const& time) {
+                return std::vector{
+                    level(u, "mean"),
+                    share(u, "amplitude"),
+                    {"frequency of " + u.name, rate_unit("1", time), 0.5 / T, 5 / T}};
+            },
+            [](varied_input const& u, double T, double const* s) {
+                return waving(u, T, s[0], s[1],
+                              [&](double at) { return std::sin(whole_turn * s[2] * T * at); });
+            }};
+}
+inline varied_shape multisine_shape() {
+    return {"multisine",
+            [](varied_input const& u, double, std::string const&) {
+                return std::vector{level(u, "mean"),
+                                   share(u, "amplitude"),
+                                   {"first phase of " + u.name, "rad", 0, whole_turn},
+                                   {"second phase of " + u.name, "rad", 0, whole_turn}};
+            },
+            [](varied_input const& u, double T, double const* s) {
+                return waving(u, T, s[0], s[1], [&](double at) {
+                    return (std::sin(whole_turn * at) + std::sin(whole_turn * 2 * at + s[2]) +
+                            std::sin(whole_turn * 4 * at + s[3])) /
+                           3;
+                });
+            }};
+}
+inline varied_shape knots_shape() {
+    return {"free knots",
+            [](varied_input const& u, double, std::string const&) {
+                std::vector<manoeuvre_setting> all_knots;
+                for (int k = 0; k <= 5; ++k)
+                    all_knots.push_back(level(u, "knot " + std::to_string(k)));
+                return all_knots;
+            },
+            [](varied_input const& u, double T, double const* s) {
+                return evenly(u, T, {s, s + 6});
+            }};
+}
 inline std::vector<varied_shape> const& varied_shapes() {
-    constexpr double turn = 2 * std::numbers::pi;
-    static std::vector<varied_shape> const all{
-        {"constant",
-         [](varied_input const& u, double, std::string const&) {
-             return std::vector{level(u, "level")};
-         },
-         [](varied_input const& u, double T, double const* s) {
-             return through(u, {0, T}, {s[0], s[0]});
-         }},
-        {"ramp",
-         [](varied_input const& u, double, std::string const&) {
-             return std::vector{level(u, "begin"), level(u, "end")};
-         },
-         [](varied_input const& u, double T, double const* s) {
-             return through(u, {0, T}, {s[0], s[1]});
-         }},
-        {"steps",
-         [](varied_input const& u, double T, std::string const& time) {
-             return std::vector{level(u, "first level"),
-                                level(u, "second level"),
-                                level(u, "third level"),
-                                {"first step of " + u.name, time, 0.05 * T, 0.5 * T},
-                                {"second step of " + u.name, time, 0.55 * T, 0.95 * T}};
-         },
-         [](varied_input const& u, double T, double const* s) {
-             double const rise = 0.01 * T; // no actuator jumps
-             return through(u, {0, s[3], s[3] + rise, s[4], s[4] + rise, T},
-                            {s[0], s[0], s[1], s[1], s[2], s[2]});
-         }},
-        {"sine",
-         [](varied_input const& u, double T, std::string const& time) {
-             return std::vector{level(u, "mean"),
-                                share(u, "amplitude"),
-                                {"frequency of " + u.name, rate_unit("1", time), 0.5 / T, 5 / T}};
-         },
-         [](varied_input const& u, double T, double const* s) {
-             return waving(u, T, s[0], s[1],
-                           [&](double at) { return std::sin(turn * s[2] * T * at); });
-         }},
-        {"multisine",
-         [](varied_input const& u, double, std::string const&) {
-             return std::vector{level(u, "mean"),
-                                share(u, "amplitude"),
-                                {"first phase of " + u.name, "rad", 0, turn},
-                                {"second phase of " + u.name, "rad", 0, turn}};
-         },
-         [](varied_input const& u, double T, double const* s) {
-             return waving(u, T, s[0], s[1], [&](double at) {
-                 return (std::sin(turn * at) + std::sin(turn * 2 * at + s[2]) +
-                         std::sin(turn * 4 * at + s[3])) /
-                        3;
-             });
-         }},
-        {"free knots",
-         [](varied_input const& u, double, std::string const&) {
-             std::vector<manoeuvre_setting> all_knots;
-             for (int k = 0; k <= 5; ++k)
-                 all_knots.push_back(level(u, "knot " + std::to_string(k)));
-             return all_knots;
-         },
-         [](varied_input const& u, double T, double const* s) {
-             return evenly(u, T, {s, s + 6});
-         }}};
+    static std::vector<varied_shape> const all{constant_shape(), ramp_shape(),      steps_shape(),
+                                               sine_shape(),     multisine_shape(), knots_shape()};
     return all;
 }
 

@@ -114,34 +114,11 @@ SIVID_DECL void draw_estimate(svg& out, double x, double y, std::string_view tip
     out.circle(x, y, 4.2, {.fill = palette::paper, .stroke = palette::ink, .width = 1.6}, tip);
 }
 
-SIVID_DECL void draw_symbol(svg& out, symbol what, double x, double y) {
-    double const mx = x + 13;
-    double const my = y + 7;
+namespace draw_detail {
+
+/// A symbol that is a rectangle.
+inline void draw_box_symbol(svg& out, symbol what, double x, double y) {
     switch (what) {
-    case symbol::measured:
-        draw_measured(out, mx, y + 12, y + 2, palette::measurement);
-        break;
-    case symbol::forced_outlier:
-        draw_forced_outlier(out, mx, my);
-        break;
-    case symbol::suspect:
-        draw_suspect(out, mx, my);
-        break;
-    case symbol::tube:
-        out.rect(x + 1, y + 2, 24, 10, {.fill = palette::tube, .opacity = 0.45});
-        out.path(path_data{}
-                     .move(x + 1, y + 2)
-                     .line(x + 25, y + 2)
-                     .move(x + 1, y + 12)
-                     .line(x + 25, y + 12),
-                 {.stroke = palette::tube_edge});
-        break;
-    case symbol::reference:
-        out.line(x + 1, my, x + 25, my, {.stroke = palette::truth, .width = 1.6, .dash = "5 3"});
-        break;
-    case symbol::witness:
-        draw_witness(out, mx, my);
-        break;
     case symbol::measured_box:
         out.rect(x + 6, y + 2, 14, 10, {.stroke = palette::measurement});
         break;
@@ -151,20 +128,8 @@ SIVID_DECL void draw_symbol(svg& out, symbol what, double x, double y) {
     case symbol::hull:
         out.rect(x + 1, y + 2, 24, 10, {.fill = palette::inside}, 2);
         break;
-    case symbol::heading: {
-        path_data arrow;
-        add_arrowhead(arrow, mx - 1, my, 0);
-        out.path(arrow, {.fill = palette::paper, .stroke = palette::truth, .width = 1.2});
-        break;
-    }
     case symbol::window:
         out.rect(x + 3, y + 1, 20, 12, {.stroke = palette::blue, .width = 1.3, .dash = "4 2"});
-        break;
-    case symbol::line_before:
-        out.line(x + 1, my, x + 25, my, line_before_paint);
-        break;
-    case symbol::line_after:
-        out.line(x + 1, my, x + 25, my, line_after_paint);
         break;
     case symbol::certified_window:
         out.rect(x + 3, y + 1, 20, 12, {.fill = palette::inside, .opacity = 0.28});
@@ -177,17 +142,56 @@ SIVID_DECL void draw_symbol(svg& out, symbol what, double x, double y) {
         out.rect(x + 1, y + 2, 24, 10,
                  {.fill = out.hatch("#ffffff", palette::frame), .stroke = palette::frame});
         break;
-    case symbol::estimate:
-        draw_estimate(out, mx, my);
-        break;
-    case symbol::inside:
-    case symbol::undecided:
-    case symbol::pending:
-    case symbol::outside: {
+    default: { // of a region
         std::string const fill = region_fill(out, what);
         out.rect(x + 4, y + 1, 18, 12, {.fill = fill, .stroke = palette::frame, .width = 0.8}, 2);
-        break;
     }
+    }
+}
+inline void draw_tube_symbol(svg& out, double x, double y) {
+    out.rect(x + 1, y + 2, 24, 10, {.fill = palette::tube, .opacity = 0.45});
+    out.path(
+        path_data{}.move(x + 1, y + 2).line(x + 25, y + 2).move(x + 1, y + 12).line(x + 25, y + 12),
+        {.stroke = palette::tube_edge});
+}
+inline void draw_line_symbol(svg& out, double x, double y, paint const& how) {
+    out.line(x + 1, y + 7, x + 25, y + 7, how);
+}
+inline void draw_heading_symbol(svg& out, double x, double y) {
+    path_data arrow;
+    add_arrowhead(arrow, x, y, 0);
+    out.path(arrow, {.fill = palette::paper, .stroke = palette::truth, .width = 1.2});
+}
+
+} // namespace draw_detail
+
+SIVID_DECL void draw_symbol(svg& out, symbol what, double x, double y) {
+    double const mx = x + 13;
+    double const my = y + 7;
+    switch (what) {
+    case symbol::measured:
+        return draw_measured(out, mx, y + 12, y + 2, palette::measurement);
+    case symbol::forced_outlier:
+        return draw_forced_outlier(out, mx, my);
+    case symbol::suspect:
+        return draw_suspect(out, mx, my);
+    case symbol::tube:
+        return draw_detail::draw_tube_symbol(out, x, y);
+    case symbol::reference:
+        return draw_detail::draw_line_symbol(
+            out, x, y, {.stroke = palette::truth, .width = 1.6, .dash = "5 3"});
+    case symbol::witness:
+        return draw_witness(out, mx, my);
+    case symbol::heading:
+        return draw_detail::draw_heading_symbol(out, mx - 1, my);
+    case symbol::line_before:
+        return draw_detail::draw_line_symbol(out, x, y, line_before_paint);
+    case symbol::line_after:
+        return draw_detail::draw_line_symbol(out, x, y, line_after_paint);
+    case symbol::estimate:
+        return draw_estimate(out, mx, my);
+    default:
+        return draw_detail::draw_box_symbol(out, what, x, y);
     }
 }
 
