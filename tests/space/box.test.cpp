@@ -193,3 +193,39 @@ TEST_CASE("an empty box has so many empty sides, and adds nothing to a hull") {
     CHECK(subset(hull(empty_box(2), other), other));
     CHECK(subset(other, hull(empty_box(2), other)));
 }
+
+TEST_CASE("a part rounded within a box contains the part, at most a cell more, in any units") {
+    draws d(65);
+    for (int n = 0; n < 2000; ++n) {
+        double const unit = n % 3 == 0 ? 1e6 : n % 3 == 1 ? 1.0 / 3600 : 0x1p-12;
+        double const least = d.uniform(-9, 9), size = d.uniform(1e-6, 9), share = d.uniform(0, 1);
+        double const end = least + share * size;
+        auto const round = [&](double u) {
+            box const whole{interval(least * u, (least + size) * u)};
+            box const part{interval(std::min(end * u, whole[0].upper()), whole[0].upper())};
+            auto const found = rounded_within(part, whole);
+            CHECK(subset(part, found));
+            CHECK(subset(found, whole));
+            CHECK(width(found[0]) - width(part[0]) <= 1.01 * 0x1p-16 * size * u);
+            return found[0].lower() / u;
+        };
+        // Bounds that lie next to a multiple may fall on either side of it.
+        double const cells = share * 0x1p16;
+        bool const close = std::abs(cells + 0x1p-10 - std::round(cells + 0x1p-10)) < 1e-4;
+        double const base = round(1), other = round(unit);
+        if (!close) CHECK(std::abs(base - other) <= 1e-12 * (std::abs(base) + size));
+    }
+}
+
+TEST_CASE("what rounding may not move stays: all of a box, points, sides without bounds") {
+    box const whole{interval(-1, 3), interval(2.0), interval(0, traits::entire().upper())};
+    auto const same = rounded_within(whole, whole);
+    CHECK(subset(same, whole));
+    CHECK(subset(whole, same));
+    box const half{interval(-1, 1), interval(2.0), interval(5, 7)};
+    auto const found = rounded_within(half, whole);
+    CHECK(found[0].lower() == -1);
+    CHECK(found[0].upper() == 1);
+    CHECK(found[2].lower() == 5);
+    CHECK(found[2].upper() == 7);
+}

@@ -231,6 +231,27 @@ template <single_interval I>
     return pieces;
 }
 
+/// A box around `part`, at most as large as `whole`, whose sides end at multiples of 2^-16 of the
+/// sides of `whole`: what is decided by it next hangs on no rounding, for instance on none that
+/// other units bring. A bound that is such a multiple but for 2^-10 of one stays as it is.
+/// @given  part in whole, not empty; sides without bounds stay as they are
+[[nodiscard]] inline basic_box<interval> rounded_within(basic_box<interval> const& part,
+                                                        basic_box<interval> const& whole) {
+    constexpr double cells = 0x1p16, near = 0x1p-10;
+    std::vector<interval> sides(part.begin(), part.end());
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        double const least = whole[i].lower(), most = whole[i].upper();
+        double const cell = (most - least) / cells;
+        if (!(cell > 0 && std::isfinite(cell))) continue;
+        double const low = sides[i].lower(), high = sides[i].upper();
+        double const below = least + std::floor((low - least) / cell + near) * cell;
+        double const above = most - std::floor((most - high) / cell + near) * cell;
+        sides[i] =
+            interval(std::max(least, std::min(below, low)), std::min(most, std::max(above, high)));
+    }
+    return basic_box<interval>(std::move(sides));
+}
+
 /// Volume of `x` relative to `whole`, as an interval; sides of zero width in `whole` are left out.
 /// @guarantee contains \f$ \prod_i w(x_i) / w(whole_i) \f$ in exact arithmetic.
 template <single_interval I>

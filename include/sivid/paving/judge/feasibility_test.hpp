@@ -321,6 +321,7 @@ private:
                 continue;
             }
             if (options_.contract) {
+                part = rounded_within(part, result.rest);
                 add_cuts(result.proof, result.rest, part);
                 result.rest = std::move(part);
             }

@@ -85,6 +85,7 @@ public:
                     note(proof_step::kind::empty, j, upwards, {});
                     return false;
                 }
+                part[j] = rounded_within(box{part[j]}, box{former})[0];
                 if (former.lower() < part[j].lower() || part[j].upper() < former.upper()) {
                     note(proof_step::kind::cut, j, upwards, std::move(why));
                 }

@@ -47,6 +47,7 @@ SIVID_DECL response_judgement judge_by_responses(response_list const& all,
             }
         }
         if (options.contract) {
+            narrowed = rounded_within(narrowed, rest);
             add_cuts(result.proof, rest, narrowed);
             rest = std::move(narrowed);
         }

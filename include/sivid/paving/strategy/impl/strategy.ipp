@@ -6,6 +6,7 @@
 
 #include <sivid/paving/detail/program_parts.hpp>
 #include <sivid/paving/strategy/inquiry.hpp>
+#include <sivid/space/box.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -19,6 +20,18 @@ namespace sivid {
 
 namespace paving_detail {
 
+/// Without what hangs on roundings: see `rounded_within`.
+[[nodiscard]] inline leftover rounded_within(leftover found, identification_problem const& asked) {
+    auto const round = [](box& part, box const& whole) {
+        auto inner = part.size() == whole.size() ? intersect(part, whole) : box{};
+        if (inner.size() > 0 && !is_empty(inner)) part = sivid::rounded_within(inner, whole);
+    };
+    round(found.parameters, asked.prior);
+    for (std::size_t e = 0; e < std::min(found.starts.size(), asked.experiments.size()); ++e)
+        round(found.starts[e], asked.experiments[e].initial);
+    return found;
+}
+
 /// Asks one contractor.
 /// @returns the share of the volume that it left; less than 1 as well where starts shrank
 inline double ask(contractor const& by, inquiry& asked, work_limit const& limit,
@@ -26,7 +39,7 @@ inline double ask(contractor const& by, inquiry& asked, work_limit const& limit,
     using outcome = contraction_record::outcome;
     stopwatch const clock;
     auto const before = asked.problem().prior;
-    bool const gained = asked.narrow(by(asked, limit, says));
+    bool const gained = asked.narrow(rounded_within(by(asked, limit, says), asked.problem()));
     double const left = std::min(1.0, relative_volume(asked.problem().prior, before).upper());
     says.seconds += clock.spent();
     says.left *= left;
