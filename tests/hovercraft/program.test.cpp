@@ -45,7 +45,7 @@ TEST_CASE("identify writes a report, a result and two tables, and says 0 when co
     temporary_folder const folder;
     auto const out = folder.path() / "deep" / "out";
     auto const r =
-        run({"identify", h3, "--out", out.string(), "--boxes", "60", "--identifiability"});
+        run({"identify", h3, "--out", out.string(), "--boxes", "40", "--identifiability"});
     CHECK(r.code == 0);
     CHECK_THAT(r.out, ContainsSubstring("rank 2, proved") &&
                           ContainsSubstring("these act through Sg*L alone"));
