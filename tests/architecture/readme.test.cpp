@@ -241,6 +241,63 @@ TEST_CASE("a block that has gone stale is found", "[readme]") {
     }
 }
 
+namespace {
+
+/// Literals that go on in the next line, after a blank or the sign of a choice, in one.
+std::string with_whole_literals(std::string const& source) {
+    std::string out;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        if (source[i] == '\\' && i + 1 < source.size() && source[i + 1] == '"') continue;
+        auto const next = source.find_first_not_of(" \n:?", i + 1);
+        bool const broken = source[i] == '"' && next != std::string::npos && source[next] == '"' &&
+                            source.find('\n', i) < next;
+        if (broken)
+            i = next;
+        else
+            out += source[i];
+    }
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("messages that the pages explain are those of the sources", "[readme]") {
+    namespace fs = std::filesystem;
+    fs::path const root{SIVID_SOURCE_DIR};
+    std::string all;
+    for (auto const* folder : {"include", "examples", "cmake"})
+        for (auto const& e : fs::recursive_directory_iterator{root / folder})
+            if (auto const name = e.path().filename().string();
+                e.is_regular_file() &&
+                (name.find("pp") != std::string::npos || name.find("cmake") != std::string::npos ||
+                 e.path().extension() == ".txt"))
+                all += text_of_file(e.path());
+    all = with_whole_literals(all);
+    std::regex const quoted{"`([^`]+)`"}, dots{R"(\.\.\.)"};
+    std::size_t seen = 0;
+    for (auto const* page : {"troubleshooting", "results", "error_bounds"}) {
+        std::istringstream in{text_of_file(root / "docs" / (std::string{page} + ".md"))};
+        for (std::string line; std::getline(in, line);) {
+            if (!line.starts_with("| `")) continue; // a row of messages
+            auto const cell = line.substr(0, line.find(" | ", 3));
+            for (std::sregex_iterator q{cell.begin(), cell.end(), quoted}, end; q != end; ++q) {
+                auto const message = (*q)[1].str();
+                for (std::sregex_token_iterator p{message.begin(), message.end(), dots, -1}, none;
+                     p != none; ++p) {
+                    auto piece = p->str();
+                    piece.erase(0, piece.find_first_not_of(" ,;:"));
+                    piece.erase(piece.find_last_not_of(" ,;:") + 1);
+                    if (piece.size() < 6) continue;
+                    ++seen;
+                    INFO(page << ": " << piece);
+                    CHECK(all.find(piece) != std::string::npos);
+                }
+            }
+        }
+    }
+    CHECK(seen > 60);
+}
+
 TEST_CASE("sources that the guides name exist", "[readme]") {
     namespace fs = std::filesystem;
     fs::path const root{SIVID_SOURCE_DIR};
