@@ -63,7 +63,8 @@ std::vector<block> blocks_of(std::string const& page, std::string const& text) {
     return all;
 }
 
-std::vector<block> all_blocks() {
+/// The pages of README, the rules, docs, theory and benchmarks.
+std::vector<std::string> all_pages() {
     std::filesystem::path const root{SIVID_SOURCE_DIR};
     std::vector<std::string> pages{"README.md", "CONTRIBUTING.md", "benchmarks/RESULTS.md",
                                    "benchmarks/withheld/CAMPAIGNS.md"};
@@ -71,8 +72,13 @@ std::vector<block> all_blocks() {
         for (auto const& entry : std::filesystem::directory_iterator{root / folder})
             if (entry.path().extension() == ".md")
                 pages.push_back(folder + entry.path().filename().string());
+    return pages;
+}
+
+std::vector<block> all_blocks() {
+    std::filesystem::path const root{SIVID_SOURCE_DIR};
     std::vector<block> all;
-    for (auto const& page : pages)
+    for (auto const& page : all_pages())
         for (auto& b : blocks_of(page, text_of_file(root / page))) all.push_back(std::move(b));
     return all;
 }
@@ -296,6 +302,42 @@ TEST_CASE("messages that the pages explain are those of the sources", "[readme]"
         }
     }
     CHECK(seen > 60);
+}
+
+TEST_CASE("links of the pages lead to files and headings", "[readme]") {
+    namespace fs = std::filesystem;
+    fs::path const root{SIVID_SOURCE_DIR};
+    // As a forge names a heading: small letters, blanks as hyphens, without other signs.
+    auto const named = [](std::string const& heading) {
+        std::string out;
+        for (char const c : heading) {
+            auto const u = static_cast<unsigned char>(c);
+            if (std::isalnum(u) || c == '_' || c == '-') out += static_cast<char>(std::tolower(u));
+            if (c == ' ') out += '-';
+        }
+        return out;
+    };
+    auto const has = [&](fs::path const& page, std::string const& anchor) {
+        std::istringstream in{text_of_file(page)};
+        for (std::string line; std::getline(in, line);)
+            if (auto const at = line.find_first_not_of('#'); at > 0 && at < line.size())
+                if (line[at] == ' ' && named(line.substr(at + 1)) == anchor) return true;
+        return false;
+    };
+    std::regex const link{R"(\]\(([\w./-]+\.(md|svg|png|cff))(#([\w-]+))?\))"};
+    auto pages = all_pages();
+    pages.insert(pages.end(), {"CHANGELOG.md", "docs/adr/index.md", "docs/site/start.md"});
+    std::size_t seen = 0;
+    for (auto const& page : pages) {
+        auto const text = text_of_file(root / page);
+        for (std::sregex_iterator l{text.begin(), text.end(), link}, end; l != end; ++l, ++seen) {
+            auto const to = (root / page).parent_path() / (*l)[1].str();
+            INFO(page << ": " << l->str());
+            CHECK(fs::exists(to));
+            if ((*l)[4].matched) CHECK(has(to, (*l)[4].str()));
+        }
+    }
+    CHECK(seen > 100);
 }
 
 TEST_CASE("sources that the guides name exist", "[readme]") {
