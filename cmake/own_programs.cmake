@@ -48,7 +48,7 @@ add_compile_definitions("SIVID_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
 # Tests of records that are not part of the repository, since nobody licensed them, are skipped where the folder lacks them.
 get_filename_component(sivid_measured "${PROJECT_SOURCE_DIR}/../shared/data" ABSOLUTE)
 set(SIVID_MEASURED_DATA "${sivid_measured}" CACHE PATH
-    "Folder with the records of measured machines, emps and cascaded_tanks (docs/servo_axis.md, docs/tanks.md)")
+    "Folder with the records of measured machines, emps and cascaded_tanks (docs/machines.md)")
 add_compile_definitions("SIVID_MEASURED_DATA=\"${SIVID_MEASURED_DATA}\"")
 
 # sivid_add_folders(<folder>): adds each sub-folder that has a CMakeLists.txt.

@@ -14,5 +14,6 @@ process.stdout.write(parts.map((part) => {
         .replace(/`[^`]*`|\$\$([\s\S]+?)\$\$|\$([^\s$`](?:[^$`]*[^\s$`])?)\$/g,
             (all, block, inline) => (block ? `\\f[${block}\\f]` : inline ? `\\f$${inline}\\f$` : all))
         .replace(/(\]\([\w./]+\.md)#[\w-]+\)/g, "$1)")   // Doxygen knows pages, not the forge's names of their sections
+        .replace(/\[([^\]]+)\]\(#[\w-]+\)/g, "$1")
         .replace(/^# .*$/m, (title) => (sections > 3 ? `${title}\n\n[TOC]\n` : title));
 }).join(""));

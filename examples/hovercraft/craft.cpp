@@ -82,7 +82,7 @@ sivid::app::robot craft() {
     r.meanings = meanings();
     r.plane = {"x", "y", "psi"};
     r.manoeuvres = new_manoeuvres();
-    r.effort = {}; // its effects are told apart after few boxes (docs/withheld.md)
+    r.effort = {}; // its effects are told apart after few boxes (benchmarks/withheld/CAMPAIGNS.md)
     r.diagnosis_share = 0.8;
     r.commands = {
         {"influence", "how far each constant moves each equation (Table 2.2)", run_influence}};

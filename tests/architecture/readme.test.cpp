@@ -21,13 +21,13 @@ std::string text_of_file(std::filesystem::path const& file) {
 
 } // namespace
 
-TEST_CASE("the README's first program is the one that is compiled", "[readme]") {
+TEST_CASE("the guide's first program is the one that is compiled", "[readme]") {
     std::filesystem::path const root{SIVID_SOURCE_DIR};
-    auto const readme = text_of_file(root / "README.md");
+    auto const guide = text_of_file(root / "docs/guide.md");
     auto program = text_of_file(root / "examples/first_steps/main.cpp");
     program.erase(0, program.find('\n') + 1); // the licence line
     REQUIRE(program.size() > 500);
-    CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
+    CHECK(guide.find("```cpp\n" + program + "```") != std::string::npos);
     CHECK(std::count(program.begin(), program.end(), '\n') <= 40);
 }
 
@@ -63,14 +63,22 @@ std::vector<block> blocks_of(std::string const& page, std::string const& text) {
     return all;
 }
 
+/// The pages of README, the rules, docs, theory and benchmarks.
+std::vector<std::string> all_pages() {
+    std::filesystem::path const root{SIVID_SOURCE_DIR};
+    std::vector<std::string> pages{"README.md", "CONTRIBUTING.md", "benchmarks/RESULTS.md",
+                                   "benchmarks/withheld/CAMPAIGNS.md"};
+    for (auto const* folder : {"docs/", "docs/theory/"})
+        for (auto const& entry : std::filesystem::directory_iterator{root / folder})
+            if (entry.path().extension() == ".md")
+                pages.push_back(folder + entry.path().filename().string());
+    return pages;
+}
+
 std::vector<block> all_blocks() {
     std::filesystem::path const root{SIVID_SOURCE_DIR};
-    std::vector<std::string> pages{"README.md", "CONTRIBUTING.md"};
-    for (auto const& entry : std::filesystem::directory_iterator{root / "docs"})
-        if (entry.path().extension() == ".md")
-            pages.push_back("docs/" + entry.path().filename().string());
     std::vector<block> all;
-    for (auto const& page : pages)
+    for (auto const& page : all_pages())
         for (auto& b : blocks_of(page, text_of_file(root / page))) all.push_back(std::move(b));
     return all;
 }
@@ -121,7 +129,7 @@ std::string wrong_command(std::string const& line) {
     words >> program;
     while (program.find('=') != std::string::npos) words >> program; // VARIABLE=value
     if (program == "sudo") words >> program;
-    static std::set<std::string> const tools{"apt",   "cd",    "cp",     "cmake", "mpirun",
+    static std::set<std::string> const tools{"apt",   "cd",    "cp",     "cmake", "echo", "mpirun",
                                              "conan", "ctest", "export", "g++",   "vcpkg"};
     std::filesystem::path const root{SIVID_SOURCE_DIR};
     bool const script =
@@ -239,6 +247,99 @@ TEST_CASE("a block that has gone stale is found", "[readme]") {
     }
 }
 
+namespace {
+
+/// Literals that go on in the next line, after a blank or the sign of a choice, in one.
+std::string with_whole_literals(std::string const& source) {
+    std::string out;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        if (source[i] == '\\' && i + 1 < source.size() && source[i + 1] == '"') continue;
+        auto const next = source.find_first_not_of(" \n:?", i + 1);
+        bool const broken = source[i] == '"' && next != std::string::npos && source[next] == '"' &&
+                            source.find('\n', i) < next;
+        if (broken)
+            i = next;
+        else
+            out += source[i];
+    }
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("messages that the pages explain are those of the sources", "[readme]") {
+    namespace fs = std::filesystem;
+    fs::path const root{SIVID_SOURCE_DIR};
+    std::string all;
+    for (auto const* folder : {"include", "examples", "cmake"})
+        for (auto const& e : fs::recursive_directory_iterator{root / folder})
+            if (auto const name = e.path().filename().string();
+                e.is_regular_file() &&
+                (name.find("pp") != std::string::npos || name.find("cmake") != std::string::npos ||
+                 e.path().extension() == ".txt"))
+                all += text_of_file(e.path());
+    all = with_whole_literals(all);
+    std::regex const quoted{"`([^`]+)`"}, dots{R"(\.\.\.)"};
+    std::size_t seen = 0;
+    for (auto const* page : {"troubleshooting", "results", "error_bounds"}) {
+        std::istringstream in{text_of_file(root / "docs" / (std::string{page} + ".md"))};
+        for (std::string line; std::getline(in, line);) {
+            if (!line.starts_with("| `")) continue; // a row of messages
+            auto const cell = line.substr(0, line.find(" | ", 3));
+            for (std::sregex_iterator q{cell.begin(), cell.end(), quoted}, end; q != end; ++q) {
+                auto const message = (*q)[1].str();
+                for (std::sregex_token_iterator p{message.begin(), message.end(), dots, -1}, none;
+                     p != none; ++p) {
+                    auto piece = p->str();
+                    piece.erase(0, piece.find_first_not_of(" ,;:"));
+                    piece.erase(piece.find_last_not_of(" ,;:") + 1);
+                    if (piece.size() < 6) continue;
+                    ++seen;
+                    INFO(page << ": " << piece);
+                    CHECK(all.find(piece) != std::string::npos);
+                }
+            }
+        }
+    }
+    CHECK(seen > 60);
+}
+
+TEST_CASE("links of the pages lead to files and headings", "[readme]") {
+    namespace fs = std::filesystem;
+    fs::path const root{SIVID_SOURCE_DIR};
+    // As a forge names a heading: small letters, blanks as hyphens, without other signs.
+    auto const named = [](std::string const& heading) {
+        std::string out;
+        for (char const c : heading) {
+            auto const u = static_cast<unsigned char>(c);
+            if (std::isalnum(u) || c == '_' || c == '-') out += static_cast<char>(std::tolower(u));
+            if (c == ' ') out += '-';
+        }
+        return out;
+    };
+    auto const has = [&](fs::path const& page, std::string const& anchor) {
+        std::istringstream in{text_of_file(page)};
+        for (std::string line; std::getline(in, line);)
+            if (auto const at = line.find_first_not_of('#'); at > 0 && at < line.size())
+                if (line[at] == ' ' && named(line.substr(at + 1)) == anchor) return true;
+        return false;
+    };
+    std::regex const link{R"(\]\(([\w./-]+\.(md|svg|png|cff))(#([\w-]+))?\))"};
+    auto pages = all_pages();
+    pages.insert(pages.end(), {"CHANGELOG.md", "docs/adr/index.md", "docs/site/start.md"});
+    std::size_t seen = 0;
+    for (auto const& page : pages) {
+        auto const text = text_of_file(root / page);
+        for (std::sregex_iterator l{text.begin(), text.end(), link}, end; l != end; ++l, ++seen) {
+            auto const to = (root / page).parent_path() / (*l)[1].str();
+            INFO(page << ": " << l->str());
+            CHECK(fs::exists(to));
+            if ((*l)[4].matched) CHECK(has(to, (*l)[4].str()));
+        }
+    }
+    CHECK(seen > 100);
+}
+
 TEST_CASE("sources that the guides name exist", "[readme]") {
     namespace fs = std::filesystem;
     fs::path const root{SIVID_SOURCE_DIR};
@@ -274,15 +375,18 @@ TEST_CASE("sources that the guides name exist", "[readme]") {
     CHECK(seen > 100);
 }
 
-TEST_CASE("each short program is whole in the guide, in at most 40 lines", "[readme]") {
+TEST_CASE("each short program is whole in the guide or named there, in at most 40 lines",
+          "[readme]") {
     std::filesystem::path const root{SIVID_SOURCE_DIR};
     auto const guide = text_of_file(root / "docs/guide.md");
     for (auto const& entry : std::filesystem::directory_iterator{root / "examples/short"}) {
         if (entry.path().extension() != ".cpp") continue;
         auto const program = text_of_file(entry.path());
         INFO(entry.path());
-        CHECK(guide.find("```cpp\n" + program.substr(program.find('\n') + 1) + "```") !=
-              std::string::npos);
+        bool const whole = guide.find("```cpp\n" + program.substr(program.find('\n') + 1) +
+                                      "```") != std::string::npos;
+        auto const name = "`examples/short/" + entry.path().filename().string() + "`";
+        CHECK((whole || guide.find(name) != std::string::npos));
         CHECK(std::count(program.begin(), program.end(), '\n') <= 40);
     }
 }

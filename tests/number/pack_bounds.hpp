@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The recurrences of docs/pack_functions.md: error bounds of the kernels of packs, summed operation
-// by operation over 1000 pieces of each reduced range. All terms are positive, so plain doubles are
-// in error by far less than the 1e-6 by which every bound is enlarged at the end.
+// The recurrences of docs/theory/pack_functions.md: error bounds of the kernels of packs, summed
+// operation by operation over 1000 pieces of each reduced range. All terms are positive, so plain
+// doubles are in error by far less than the 1e-6 by which every bound is enlarged at the end.
 #ifndef SIVID_TESTS_NUMBER_PACK_BOUNDS_HPP
 #define SIVID_TESTS_NUMBER_PACK_BOUNDS_HPP
 

@@ -107,8 +107,7 @@ TEST_CASE("a bad record is refused with file, line and column", "[servo_axis]") 
 TEST_CASE("the real axis: offset and friction explain most, the direction the rest",
           "[.long][measured]") {
     if (!fs::exists(real_record() / "validation_200Hz.csv"))
-        SIVID_SKIP("no EMPS records in '" << real_record().string()
-                                          << "' (see docs/servo_axis.md)");
+        SIVID_SKIP("no EMPS records in '" << real_record().string() << "' (see docs/machines.md)");
     temporary_folder const folder;
     auto const data = (folder.path() / "data").string();
     auto const out = folder.path() / "out";

@@ -64,7 +64,7 @@ TEST_CASE("water over a rim is lost but for its share", "[tanks]") {
 TEST_CASE("the real tanks: where, which, and what stays", "[.long][measured]") {
     auto const record = fs::path{SIVID_MEASURED_DATA} / "cascaded_tanks";
     if (!fs::exists(record / "validation.csv"))
-        SIVID_SKIP("no records of the tanks in '" << record.string() << "' (see docs/tanks.md)");
+        SIVID_SKIP("no records of the tanks in '" << record.string() << "' (see docs/machines.md)");
     temporary_folder const folder;
     for (auto const* name : {"estimation.csv", "validation.csv"})
         fs::copy(record / name, folder.path());

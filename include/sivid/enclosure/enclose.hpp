@@ -29,8 +29,8 @@ namespace sivid {
 /// @param options  `method` names a Runge-Kutta formula in place of the Taylor series, for sets of
 ///   first order
 /// With Taylor models, where they lose more than they keep the states get variables of their own
-/// (`docs/taylor_models.md`, section 2), and about a single start, or where they end early, sets
-/// of first order are carried as well: `enclosed_motion::carried`.
+/// (`docs/theory/taylor_models.md`, section 2), and about a single start, or where they end early,
+/// sets of first order are carried as well: `enclosed_motion::carried`.
 /// @returns  `at` and `over` for any times of the proved span; where that ends early, `failure()`
 /// @throws std::invalid_argument  for boxes of other sizes, empty or unbounded, a span that ends
 ///   before it begins, or a method with Taylor models

@@ -4,7 +4,7 @@
 
 /// @file
 /// The Runge-Kutta methods that `enclosure_options::method` can name, `rk4()` for instance, and
-/// what makes steps by them (docs/runge_kutta.md). Who names none compiles none.
+/// what makes steps by them (docs/theory/runge_kutta.md). Who names none compiles none.
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/runge_kutta/runge_kutta.hpp>

@@ -351,7 +351,7 @@ struct pack_traits {
         return flagged<simd::pown<V>>(undefined, a, n);
     }
 
-    // Elementary functions: error bounds in docs/pack_functions.md.
+    // Elementary functions: error bounds in docs/theory/pack_functions.md.
     static I exp(I const& a) noexcept { return map<simd::exp<V>>(a); }
     static I log(I const& a, mask& undefined) noexcept {
         return flagged<simd::log<V>>(undefined, a);

@@ -167,7 +167,7 @@ TEST_CASE("a user's tableau encloses all systems") {
     });
 }
 
-TEST_CASE("the method of docs/runge_kutta.md") {
+TEST_CASE("the method of docs/theory/runge_kutta.md") {
     support::for_each_system([](auto const& system) {
         auto const flow = system.flow();
         auto const initial = point_box(mid(system.initial));

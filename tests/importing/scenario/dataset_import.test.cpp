@@ -238,7 +238,7 @@ TEST_CASE("measured machines: bounds as their descriptions say") {
     fs::path const records{SIVID_MEASURED_DATA};
     if (!fs::exists(records / "emps") || !fs::exists(records / "cascaded_tanks"))
         SIVID_SKIP("no emps and cascaded_tanks in '" << records.string()
-                                                     << "' (see docs/servo_axis.md)");
+                                                     << "' (see docs/machines.md)");
     temporary_folder const folder;
     auto const import_one = [&](std::string const& file, std::string const& u,
                                 std::string const& y) {

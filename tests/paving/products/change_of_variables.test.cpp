@@ -68,7 +68,7 @@ identification found_in(changed_problem const& posed, std::size_t boxes) {
 
 } // namespace
 
-TEST_CASE("the coordinates of docs/identification.md") {
+TEST_CASE("the coordinates of docs/theory/identification.md") {
     draws d(5);
     auto const planted = support::plant(d, {1, 2, 0, 10}, decay_rate, decay_prior, {1}, {});
     auto const& problem = planted.problem;

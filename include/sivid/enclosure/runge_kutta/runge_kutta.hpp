@@ -4,7 +4,7 @@
 
 /// @file
 /// The formulas of Runge-Kutta methods, explicit and implicit, as functions of the step
-/// (docs/runge_kutta.md).
+/// (docs/theory/runge_kutta.md).
 
 #include <sivid/compiled.hpp>
 #include <sivid/enclosure/runge_kutta/tableau.hpp>
@@ -128,7 +128,8 @@ inline void require_order(tableau const& method) {
 ///   with B an enclosure of the solution on [0, h].
 /// @tparam T  an interval type
 /// @ref  Alexandre dit Sandretto and Chapoutot, Reliable Computing 22 (2016), section 3; the local
-///       error is bounded here by series in the step instead of rooted trees (docs/runge_kutta.md).
+///       error is bounded here by series in the step instead of rooted trees
+///       (docs/theory/runge_kutta.md).
 template <class T>
 class runge_kutta {
     using arithmetic = arithmetic_of<T>;
@@ -723,7 +724,8 @@ auto implicit_stages<T>::expand(double t, vector const& x, T const& step,
 /// The local error is that of explicit methods: \f$ h^{p+1} ( x^{[p+1]}(B) - \phi^{[p+1]}([0,h]) )
 /// \f$.
 /// @tparam T  an interval type
-/// @ref  docs/runge_kutta.md; Alexandre dit Sandretto and Chapoutot, Reliable Computing 22 (2016)
+/// @ref  docs/theory/runge_kutta.md; Alexandre dit Sandretto and Chapoutot, Reliable Computing 22
+/// (2016)
 template <class T>
 class implicit_runge_kutta {
     using arithmetic = arithmetic_of<T>;

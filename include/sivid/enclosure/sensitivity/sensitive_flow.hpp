@@ -152,7 +152,7 @@ private:
 /// the tube b(q, s) serves that the step of the flow has left: with J the coefficients of order L
 /// on it,
 ///   \f$ W > \sum_{1 \le k<L} h^k |V^{[k]}| + h^L (|J| + |J_x| W) \f$
-/// bounds \f$ |V - [1, 0]| \f$ on the step (docs/taylor_models.md, section 3, (a)), and
+/// bounds \f$ |V - [1, 0]| \f$ on the step (docs/theory/taylor_models.md, section 3, (a)), and
 ///   \f$ M \in \sum_{k<L} h^k V^{[k]} + h^L (J + |J_x| [-W, W]) \f$.
 /// Columns: initial states, then parameters, in the model's units (not per unit of q). Across kinks
 /// L = 1 and the derivative is Clarke's; across jumps there is none, and the entries say nothing

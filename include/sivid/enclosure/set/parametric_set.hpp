@@ -33,7 +33,7 @@ template <class C>
 }
 
 /// A box in an almost orthogonal frame \f$ Q \f$ that contains \f$ \sum_j g_j(q) \xi_j \f$ for all
-/// q and \f$ \xi \in [-1,1]^m \f$ (`docs/taylor_models.md`, section 2, "Reduction").
+/// q and \f$ \xi \in [-1,1]^m \f$ (`docs/theory/taylor_models.md`, section 2, "Reduction").
 /// @tparam Model  of the entries of g_j, with radius 0
 template <class Model>
 class framed_box {

@@ -12,7 +12,7 @@
 namespace sivid {
 
 /// What the series of an `expansion` leave out over a step, proved from the sizes of their
-/// coefficients (`docs/taylor_models.md`, sections 3.0 and 3.7).
+/// coefficients (`docs/theory/taylor_models.md`, sections 3.0 and 3.7).
 /// @given  of each expansion: neither undefined nor kinked
 template <class Entry>
 class expansion_tail {

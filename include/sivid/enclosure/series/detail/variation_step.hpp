@@ -12,7 +12,7 @@
 
 /// @file
 /// What a flow's derivatives V by states, or by states and parameters, do during a step
-/// (`docs/taylor_models.md`, section 3, (a)). n x m entries, by rows.
+/// (`docs/theory/taylor_models.md`, section 3, (a)). n x m entries, by rows.
 
 namespace sivid::enclosure_detail {
 

@@ -76,8 +76,8 @@ inline constexpr double far_up = 1 + 1e-12;
 ///   coefficients. Where the states are known to have \f$ |r_x(s)| \le \rho_x (s/h)^M \f$ on
 ///   [0, h], so has every quantity, with a \f$ \rho_v \f$ of its own: of a product
 ///   \f$ \rho_{ab} = \sum_{i+j \ge M} |a_i| |b_j| h^{i+j} + \rho_a \|b\| + \rho_b \|a\| + \rho_a
-///   \rho_b \f$, \f$ \|a\| = \sum_{k<M} |a_k| h^k \f$; of the others see `docs/taylor_models.md`.
-///   Low orders cancel exactly, so nothing is lost to roundings.
+///   \rho_b \f$, \f$ \|a\| = \sum_{k<M} |a_k| h^k \f$; of the others see
+///   `docs/theory/taylor_models.md`. Low orders cancel exactly, so nothing is lost to roundings.
 /// @tparam T     a Taylor model; sizes are its norms, so that everything holds for all of its
 ///               functions' arguments. With lanes: in each lane.
 /// @cost         O(M) numbers a product, O(1) a product for each further `propagate`

@@ -6,7 +6,7 @@
 /// Proved bounds of elementary functions at the ends of an interval, without the C library: the
 /// kernels of packs, both ends side by side, arguments of sin, cos and tan beyond their limit
 /// reduced in integers, and what follows from these by directed arithmetic
-/// (docs/pack_functions.md, section 11). All are given round-to-nearest; what is known of a
+/// (docs/theory/pack_functions.md, section 11). All are given round-to-nearest; what is known of a
 /// function at particular numbers is the caller's part.
 
 #include <sivid/number/elementary/detail/integers.hpp>

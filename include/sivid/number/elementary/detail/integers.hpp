@@ -163,8 +163,8 @@ using wide_integer = signed_two_words;
 // ---- What is done in integers alone, so that no rounding mode, flag or library has a part in it:
 // any double reduced modulo quarter turns, beyond the limit of the kernels of sin, cos and tan;
 // powers with whole exponents; and x^y = 2^(y log2 x). Numbers are non-negative and cut off, so
-// that errors have one sign; they are counted in units of the last place (docs/pack_functions.md,
-// section 11).
+// that errors have one sign; they are counted in units of the last place
+// (docs/theory/pack_functions.md, section 11).
 
 namespace sivid::detail::integers {
 

@@ -15,8 +15,8 @@
 /// the nearest.
 ///
 /// What is small is inlined always: g++ 12 with -flto takes an argument for unread of which members
-/// are only handed on by value (docs/numbers.md, Compilers). Functions with aggregates by reference
-/// therefore hand on copies of their members where what they call is larger.
+/// are only handed on by value (docs/theory/numbers.md, Compilers). Functions with aggregates by
+/// reference therefore hand on copies of their members where what they call is larger.
 
 #include <sivid/number/pack/detail/pack_target.hpp>
 #include <sivid/number/pack/detail/vectors.hpp>
@@ -53,7 +53,7 @@ template <class V>
 
 /// a b - p, exact for p a faithful rounding of a b, if no part of it under- or overflows. Dekker's
 /// product: the halves have 26 bits each, their products are exact, and so is every partial sum
-/// (docs/pack_functions.md, section 2).
+/// (docs/theory/pack_functions.md, section 2).
 template <class V>
 [[nodiscard]] V dekker_residual(V a, V b, V p) noexcept {
     V const ah = leading_half(a), al = a - ah;

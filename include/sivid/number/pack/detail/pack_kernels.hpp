@@ -7,9 +7,9 @@
 /// in round-to-nearest, an unevaluated sum head + tail with
 ///   \f$ |head + tail - f(x)| \le \delta\,|head| \f$
 /// and the bounds are directed sums head + (tail -+ delta |head|): one rounding each. The constants
-/// delta, in units of 2^-53, are derived in docs/pack_functions.md, for fused and for separate
-/// multiply-add, with the rounding of tail -+ delta |head| included. `f_bounds::at<D>(x)` is the
-/// bound of f(x) on side D, with what is known of f.
+/// delta, in units of 2^-53, are derived in docs/theory/pack_functions.md, for fused and for
+/// separate multiply-add, with the rounding of tail -+ delta |head| included. `f_bounds::at<D>(x)`
+/// is the bound of f(x) on side D, with what is known of f.
 
 #include <sivid/number/pack/detail/pack_arithmetic.hpp>
 
@@ -153,7 +153,7 @@ template <class V>
     return {q, (rest + (n.tail - q * d.tail)) / b};
 }
 
-// ---- exp, expm1, sinh, cosh, tanh (docs/pack_functions.md, section 4)
+// ---- exp, expm1, sinh, cosh, tanh (docs/theory/pack_functions.md, section 4)
 
 /// Error bounds in units of 2^-53 of the head.
 namespace kernel_error {
@@ -291,7 +291,7 @@ struct tanh_bounds {
     }
 };
 
-// ---- log and log1p (docs/pack_functions.md, section 5)
+// ---- log and log1p (docs/theory/pack_functions.md, section 5)
 
 namespace kernel_error {
 inline constexpr double log = 2.0, log1p = 2.0;

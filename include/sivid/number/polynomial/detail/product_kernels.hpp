@@ -156,8 +156,8 @@ private:
 
 // The innermost loops: truncated products of polynomials. Every one of them forms coefficient k
 // from at most `longest_sum` products, each rounded once and added up at most `longest_sum` - 1
-// times before the total joins what is there; the bounds of `docs/taylor_models.md`, section 1.1,
-// hold for all of them.
+// times before the total joins what is there; the bounds of `docs/theory/taylor_models.md`,
+// section 1.1, hold for all of them.
 
 namespace sivid {
 inline namespace SIVID_PACK_TARGET {

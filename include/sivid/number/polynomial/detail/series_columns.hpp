@@ -121,7 +121,7 @@ private:
 };
 
 /// A sum of convolutions of single series with rows of columns, and of single models, in all
-/// columns: one rounding bound for each of them (`docs/taylor_models.md`, section 1.1).
+/// columns: one rounding bound for each of them (`docs/theory/taylor_models.md`, section 1.1).
 class columns_sum {
     using columns = series_columns;
     using model = taylor_model<double>;

@@ -54,8 +54,8 @@ struct sum_and_error {
 /// A real number known to about 31 digits: within `radius()` of the exact sum `head() + tail()`.
 ///   The tail is at most \f$ u(1+4u) \f$ times the head, \f$ u = 2^{-52} \f$. Rounding errors of
 ///   the second order are in the radius, by bounds that hold in every rounding mode
-///   (`docs/taylor_models.md`, section 1.4). A radius that is not finite means that nothing is
-///   known.
+///   (`docs/theory/taylor_models.md`, section 1.4). A radius that is not finite means that nothing
+///   is known.
 /// @guarantee  a result contains the operation's value for all numbers within the operands
 /// @cost  about 30 operations a sum or product
 /// @ref   Dekker 1971; Boldo, Graillat and Muller 2017 (sums in other rounding modes)
