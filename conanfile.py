@@ -18,10 +18,9 @@ class Sivid(ConanFile):
     license = "MIT"
     description = "Set-inversion validated identification: which parameters of a dynamic model can explain recorded data, with proof"
     topics = ("interval-arithmetic", "identification", "ode", "header-only")
-    package_type = "header-library"
     settings = "os", "arch", "compiler", "build_type"
-    options = {"with_io": [True, False], "with_parallel": [True, False]}
-    default_options = {"with_io": True, "with_parallel": False, "boost/*:header_only": True}
+    options = {"with_io": [True, False], "with_parallel": [True, False], "library": [True, False]}   # library: libsivid
+    default_options = {"with_io": True, "with_parallel": False, "library": False, "boost/*:header_only": True}
     exports_sources = "CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "cmake/*", "docs/*", "include/*"
     no_copy_source = True
 
@@ -44,7 +43,8 @@ class Sivid(ConanFile):
             self.requires("onetbb/[>=2021]", transitive_headers=True)
 
     def package_id(self):
-        self.info.settings.clear()   # headers
+        if not self.options.library:
+            self.info.settings.clear()   # headers
 
     def validate(self):
         check_min_cppstd(self, 20)
@@ -59,6 +59,7 @@ class Sivid(ConanFile):
         toolchain = CMakeToolchain(self)
         for name in "SIVID_BUILD_TESTS", "SIVID_BUILD_EXAMPLES", "SIVID_BUILD_BENCHMARKS":
             toolchain.cache_variables[name] = False
+        toolchain.cache_variables["SIVID_LIBRARY"] = bool(self.options.library)
         for name in "SIVID_WITH_MATIO", "SIVID_WITH_TOML":
             toolchain.cache_variables[name] = False   # of the machine, not of Conan
         # What an option does not ask for is not looked for, either.
@@ -68,10 +69,16 @@ class Sivid(ConanFile):
         toolchain.generate()
 
     def build(self):
-        CMake(self).configure()
+        cmake = CMake(self)
+        cmake.configure()
+        if self.options.library:
+            cmake.build(target="libsivid")
 
     def package(self):
         CMake(self).install(component="sivid_headers")
+        if self.options.library:
+            for component in "sivid_library", "sivid_linking":
+                CMake(self).install(component=component)
         copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
 
     def package_info(self):
@@ -80,4 +87,4 @@ class Sivid(ConanFile):
         self.cpp_info.set_property("pkg_config_name", "sivid")
         self.cpp_info.builddirs = [os.path.join("share", "cmake", "sivid")]
         self.cpp_info.bindirs = []
-        self.cpp_info.libdirs = []
+        self.cpp_info.libdirs = ["lib"] if self.options.library else []

@@ -14,7 +14,7 @@ foreach(part IN ITEMS app_identification app_decision app)
 endforeach()
 add_library(sivid_app STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
 add_library(sivid::app ALIAS sivid_app)
-set_target_properties(sivid_app PROPERTIES POSITION_INDEPENDENT_CODE ON)
+set_target_properties(sivid_app PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
 find_package(Threads REQUIRED) # a fleet has one for each of its processes
 target_link_libraries(sivid_app PUBLIC sivid::app_headers sivid_compiled PRIVATE Threads::Threads)
 foreach(component IN ITEMS parallel matlab)

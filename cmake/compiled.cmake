@@ -46,7 +46,7 @@ endforeach()
 add_library(sivid_compiled STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
 add_library(sivid::compiled ALIAS sivid_compiled)
 target_compile_definitions(sivid_compiled PUBLIC SIVID_COMPILED)
-set_target_properties(sivid_compiled PROPERTIES POSITION_INDEPENDENT_CODE ON)   # for shared libraries that stand on it
+set_target_properties(sivid_compiled PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)   # in shared libraries
 foreach(component IN ITEMS sivid io verifier report text)
     if(TARGET sivid::${component})
         target_link_libraries(sivid_compiled PRIVATE sivid::${component})
@@ -67,7 +67,7 @@ if(TARGET sivid::verifier AND SIVID_GMP AND SIVID_MPFR AND SIVID_MPFI AND SIVID_
     add_library(sivid_compiled_mpfi STATIC EXCLUDE_FROM_ALL ${sivid_compiled_sources})
     add_library(sivid::compiled_mpfi ALIAS sivid_compiled_mpfi)
     target_compile_definitions(sivid_compiled_mpfi PUBLIC SIVID_COMPILED_MPFI)
-    set_target_properties(sivid_compiled_mpfi PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    set_target_properties(sivid_compiled_mpfi PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
     target_include_directories(sivid_compiled_mpfi SYSTEM PUBLIC "${SIVID_MPFI_INCLUDE}")
     target_link_libraries(sivid_compiled_mpfi PUBLIC sivid_compiled "${SIVID_MPFI}" "${SIVID_MPFR}" "${SIVID_GMP}"
                           PRIVATE sivid::verifier)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Install rules, in two components: sivid_headers (headers, package files for find_package(sivid) and pkg-config, guides)
-# and sivid_programs (sivid, sivid-hovercraft, sivid-import and their data). `cmake --install <build> --component ...` takes one.
+# Install rules, in components: sivid_headers (headers, package files for find_package(sivid) and pkg-config, guides) and
+# sivid_programs (sivid, sivid-hovercraft, sivid-import and their data) here, sivid_library (libsivid.so.0) and
+# sivid_linking (what a program that links to it needs beside headers) in library.cmake. `cmake --install <build> --component ...` takes one.
 
 include(GNUInstallDirs)
 include("${CMAKE_CURRENT_LIST_DIR}/version_file.cmake")
@@ -8,9 +9,29 @@ include(CMakePackageConfigHelpers)
 
 set(sivid_package_dir "${CMAKE_INSTALL_DATADIR}/cmake/sivid")   # nothing in it depends on the machine
 set(sivid_pkgconfig_dir "${CMAKE_INSTALL_DATADIR}/pkgconfig")
+set(sivid_library_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sivid")   # but libsivid
+file(RELATIVE_PATH sivid_run_path "/prefix/${CMAKE_INSTALL_BINDIR}" "/prefix/${CMAKE_INSTALL_LIBDIR}")
+set(sivid_run_path "$ORIGIN/${sivid_run_path}")
+
+# Folders of an installation, from the folder of a file for pkg-config: it may be moved as a whole.
+function(sivid_pkgconfig_folders of)
+    set(prefix "${CMAKE_INSTALL_PREFIX}")
+    if(NOT IS_ABSOLUTE "${of}")
+        file(RELATIVE_PATH back "/prefix/${of}" "/prefix")
+        set(prefix "\${pcfiledir}/${back}")
+    endif()
+    foreach(folder IN ITEMS include lib)
+        string(TOUPPER "${folder}" upper)
+        set(${folder}dir "${CMAKE_INSTALL_${upper}DIR}")
+        if(NOT IS_ABSOLUTE "${${folder}dir}")
+            set(${folder}dir "\${prefix}/${${folder}dir}")
+        endif()
+        set(${folder}dir "${${folder}dir}" PARENT_SCOPE)
+    endforeach()
+    set(prefix "${prefix}" PARENT_SCOPE)
+endfunction()
 
 # sivid_install_pkgconfig(<component> <description> <requires>): sivid.pc of the core, sivid-<component>.pc of the others.
-# They find themselves: an installation may be moved as a whole.
 function(sivid_install_pkgconfig component description requires)
     set(name "sivid-${component}")
     set(cflags "")
@@ -26,15 +47,7 @@ function(sivid_install_pkgconfig component description requires)
     elseif(component STREQUAL "cluster")
         set(cflags " -DSIVID_HAS_MPI=1")
     endif()
-    set(prefix "${CMAKE_INSTALL_PREFIX}")
-    if(NOT IS_ABSOLUTE "${sivid_pkgconfig_dir}")
-        file(RELATIVE_PATH back "/prefix/${sivid_pkgconfig_dir}" "/prefix")
-        set(prefix "\${pcfiledir}/${back}")
-    endif()
-    set(includedir "${CMAKE_INSTALL_INCLUDEDIR}")
-    if(NOT IS_ABSOLUTE "${includedir}")
-        set(includedir "\${prefix}/${includedir}")
-    endif()
+    sivid_pkgconfig_folders("${sivid_pkgconfig_dir}")
     file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY CONTENT
 "prefix=@prefix@
 includedir=@includedir@
@@ -90,7 +103,7 @@ endforeach()
 
 configure_package_config_file(
     "${CMAKE_CURRENT_LIST_DIR}/sividConfig.cmake.in" "${PROJECT_BINARY_DIR}/sividConfig.cmake"
-    INSTALL_DESTINATION "${sivid_package_dir}")
+    INSTALL_DESTINATION "${sivid_package_dir}" PATH_VARS sivid_library_package_dir)
 sivid_write_version_file("${PROJECT_BINARY_DIR}/sividConfigVersion.cmake" "${PROJECT_VERSION}")
 install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/sividConfigVersion.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
@@ -105,6 +118,13 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid" COMPONENT sivid_headers
         FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
 
+# sivid_install_documents(<component>): those that each Debian package has.
+function(sivid_install_documents component)
+    install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+            DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid" COMPONENT ${component})
+endfunction()
+sivid_install_documents(sivid_programs)
+
 # sivid_install_program(<target> [<data folder>]): under a name that says whose it is (Debian has a `hovercraft` of
 # another kind). A tree in which nothing is built installs its headers all the same.
 function(sivid_install_program target)
@@ -113,13 +133,15 @@ function(sivid_install_program target)
     if(target STREQUAL "sivid")
         set(program sivid)
     endif()
-    install(PROGRAMS "$<TARGET_FILE:${target}>" DESTINATION "${CMAKE_INSTALL_BINDIR}"
-            RENAME "${program}${CMAKE_EXECUTABLE_SUFFIX}" COMPONENT sivid_programs OPTIONAL)
+    if(program STREQUAL target)   # CMake renames no target
+        install(TARGETS ${target} DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT sivid_programs OPTIONAL)
+    else()
+        install(PROGRAMS "$<TARGET_FILE:${target}>" DESTINATION "${CMAKE_INSTALL_BINDIR}"
+                RENAME "${program}${CMAKE_EXECUTABLE_SUFFIX}" COMPONENT sivid_programs OPTIONAL)
+    endif()
     foreach(folder IN LISTS ARGN)
         install(DIRECTORY "${folder}/" DESTINATION "${CMAKE_INSTALL_DATADIR}/sivid/${name}" COMPONENT sivid_programs)
     endforeach()
     install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/${program}.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
             COMPONENT sivid_programs)
-    install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
-            DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sivid" COMPONENT sivid_programs)
 endfunction()

@@ -7,16 +7,37 @@
 /// defines what is no template. Where SIVID_COMPILED is defined headers declare only; one source of
 /// the program then includes <sivid/impl/src.hpp>, or the program links to a library that was
 /// compiled by the same compiler with the same flags (CMake: sivid::compiled).
+///   With SIVID_LIBRARY beside it, the program links to libsivid (CMake: sivid::library), which any
+/// compiler and machine flags serve: what crosses its border is laid out alike for all of them.
+/// What depends on the instructions of the machine does not cross it, and is compiled in the
+/// program.
+#if defined(SIVID_LIBRARY) && !defined(SIVID_COMPILED)
+#error "with SIVID_LIBRARY define SIVID_COMPILED, too"
+#endif
+
+/// What libsivid shows of itself; all else is hidden, so that nothing of a program takes its place.
+#ifdef __ELF__
+#define SIVID_SHOWN [[gnu::visibility("default")]]
+#else
+#define SIVID_SHOWN
+#endif
+
 #ifdef SIVID_COMPILED
-#define SIVID_DECL
+#define SIVID_DECL SIVID_SHOWN
 #else
 #define SIVID_DECL inline
 #endif
 /// The same for what needs MPFI, too (CMake: sivid::compiled_mpfi).
 #ifdef SIVID_COMPILED_MPFI
-#define SIVID_MPFI_DECL
+#define SIVID_MPFI_DECL SIVID_SHOWN
 #else
 #define SIVID_MPFI_DECL inline
+#endif
+
+/// Program and library are compiled alike: the library has templates for the program's machine,
+/// too.
+#if defined(SIVID_COMPILED) && !defined(SIVID_LIBRARY)
+#define SIVID_COMPILED_ALIKE
 #endif
 
 #ifdef SIVID_COMPILED
@@ -34,17 +55,32 @@
 
 namespace sivid {
 
-struct plain_containers;
-struct debug_containers;
+struct SIVID_SHOWN plain_containers;
+struct SIVID_SHOWN debug_containers;
 #ifdef _GLIBCXX_DEBUG
 using containers_of_this_source = debug_containers;
 #else
 using containers_of_this_source = plain_containers;
 #endif
 
-struct by_clang;
-struct by_gcc;
-struct by_another;
+struct SIVID_SHOWN any_machine;
+inline namespace SIVID_PACK_TARGET {
+struct SIVID_SHOWN this_machine;
+} // namespace SIVID_PACK_TARGET
+
+/// The library defines this for its own vector instructions and standard containers, each source
+/// asks for its own: objects have the same layout in both, or the program does not link. Programs
+/// for libsivid ask for `any_machine`.
+template <class Machine, class Containers>
+struct SIVID_SHOWN library_for {
+    static char const sivid_compiled_has_other_machine_flags;
+};
+
+#ifdef SIVID_COMPILED_ALIKE
+
+struct SIVID_SHOWN by_clang;
+struct SIVID_SHOWN by_gcc;
+struct SIVID_SHOWN by_another;
 #if defined(__clang__)
 using compiler_of_this_source = by_clang;
 #elif defined(__GNUC__)
@@ -56,26 +92,21 @@ using compiler_of_this_source = by_another;
 /// As `library_for`, for the compiler: clang and GCC lay out what a lambda captures in another
 /// order, and of an inline function that both have compiled the linker keeps one.
 template <class Compiler>
-struct library_by {
+struct SIVID_SHOWN library_by {
     static char const sivid_compiled_is_of_another_compiler;
 };
 
 SIVID_KEPT static char const* const library_by_this_compiler =
     &library_by<compiler_of_this_source>::sivid_compiled_is_of_another_compiler;
 
-inline namespace SIVID_PACK_TARGET {
-
-/// The library defines this for its own vector instructions and standard containers, each source
-/// asks for its own: objects have the same layout in both, or the program does not link.
-template <class Containers>
-struct library_for {
-    static char const sivid_compiled_has_other_machine_flags;
-};
-
-} // namespace SIVID_PACK_TARGET
+using machine_asked_for = this_machine;
+#else
+using machine_asked_for = any_machine;
+#endif
 
 SIVID_KEPT static char const* const library_for_this_source =
-    &library_for<containers_of_this_source>::sivid_compiled_has_other_machine_flags;
+    &library_for<machine_asked_for,
+                 containers_of_this_source>::sivid_compiled_has_other_machine_flags;
 
 } // namespace sivid
 

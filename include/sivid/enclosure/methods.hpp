@@ -178,7 +178,7 @@ template <class I = interval>
     return t;
 }
 
-#ifdef SIVID_COMPILED // its members are compiled once
+#ifdef SIVID_COMPILED_ALIKE // its members are compiled once
 extern template struct formula_step_maker<interval>;
 #endif
 

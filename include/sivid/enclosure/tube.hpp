@@ -164,7 +164,7 @@ template <class I = interval>
     return result;
 }
 
-#ifdef SIVID_COMPILED // the whole of first-order integration, compiled once
+#ifdef SIVID_COMPILED_ALIKE // the whole of first-order integration, compiled once
 extern template tube<interval> integrate(std::shared_ptr<flow const>, box const&, box const&,
                                          double, double, enclosure_options const&);
 #endif

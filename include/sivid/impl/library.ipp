@@ -16,12 +16,8 @@ namespace sivid {
 template <class Compiler>
 char const library_by<Compiler>::sivid_compiled_is_of_another_compiler = 0;
 
-inline namespace SIVID_PACK_TARGET {
-
-template <class Containers>
-char const library_for<Containers>::sivid_compiled_has_other_machine_flags = 0;
-
-} // namespace SIVID_PACK_TARGET
+template <class Machine, class Containers>
+char const library_for<Machine, Containers>::sivid_compiled_has_other_machine_flags = 0;
 
 template <int Version, int MaxAlignBytes, int MaxStaticAlignBytes, std::size_t IndexBytes,
           int StorageOrder>
@@ -30,9 +26,8 @@ char const library_for_eigen<Version, MaxAlignBytes, MaxStaticAlignBytes, IndexB
 
 // Said outright: clang does not take them from their use, which stands before their definition.
 template struct library_by<compiler_of_this_source>;
-inline namespace SIVID_PACK_TARGET {
-template struct library_for<containers_of_this_source>;
-} // namespace SIVID_PACK_TARGET
+template struct library_for<this_machine, containers_of_this_source>;
+template struct library_for<any_machine, containers_of_this_source>;
 template struct library_for_eigen<EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 +
                                       EIGEN_MINOR_VERSION,
                                   EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES,

@@ -6,6 +6,7 @@
 /// Refuses builds (rounding/detail/machine.hpp) and machines on which interval arithmetic would not
 /// prove anything.
 
+#include <sivid/compiled.hpp>
 #include <sivid/number/interval_traits.hpp>
 #include <sivid/number/pack/detail/pack_target.hpp>
 #include <sivid/number/rounding.hpp>
@@ -53,7 +54,7 @@ template <class T>
     return nullptr;
 }
 
-#ifdef SIVID_COMPILED
+#ifdef SIVID_COMPILED_ALIKE
 /// The first function of `interval`, and of packs by each vector that they are made of, that misses
 /// a known value. Only the library tries them all, once in a process (less than a millisecond).
 /// @given  what `require_sound_environment` demands of the machine

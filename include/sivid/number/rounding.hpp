@@ -165,19 +165,19 @@ template <direction D>
 
 // Kernels that differ with compiler flags live in a namespace that names the flags, so that
 // translation units with different flags can be linked.
+#if SIVID_MACHINE_X86_64 && defined(__AVX512F__) && !defined(SIVID_UNFUSED)
+#define SIVID_EMBEDDED_ROUNDING 1
+#else
+#define SIVID_EMBEDDED_ROUNDING 0
+#endif
 #if !SIVID_MACHINE_X86_64
 #define SIVID_ROUNDING_KERNELS rounding_by_integers
-#elif defined(__AVX512F__)
+#elif SIVID_EMBEDDED_ROUNDING
 #define SIVID_ROUNDING_KERNELS rounding_avx512
 #elif defined(__FMA__)
 #define SIVID_ROUNDING_KERNELS rounding_residual_fma
 #else
 #define SIVID_ROUNDING_KERNELS rounding_residual
-#endif
-#if SIVID_MACHINE_X86_64 && defined(__AVX512F__)
-#define SIVID_EMBEDDED_ROUNDING 1
-#else
-#define SIVID_EMBEDDED_ROUNDING 0
 #endif
 
 namespace sivid::detail {

@@ -3,10 +3,16 @@
 # In a registry vcpkg_from_github(... REF v${VERSION} ...) takes the place of the next line.
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 
-set(VCPKG_BUILD_TYPE release)   # headers only
+set(VCPKG_BUILD_TYPE release)   # headers only, or a library that serves all
+
+set(options "")
+if("library" IN_LIST FEATURES)
+    list(APPEND options -DSIVID_LIBRARY=ON)
+    set(VCPKG_POLICY_SKIP_MISPLACED_CMAKE_FILES_CHECK enabled)   # lib/cmake/sivid, which sividConfig.cmake reads
+endif()
 
 # What a feature does not ask for is not looked for, either.
-set(options -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON)   # sivid::cluster is no feature here
+list(APPEND options -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON)   # sivid::cluster is no feature here
 list(APPEND options -DSIVID_WITH_MATIO=OFF)               # nor is sivid::matlab
 list(APPEND options -DSIVID_WITH_TOML=OFF)                # nor is sivid::text
 foreach(feature_package IN ITEMS io:nlohmann_json parallel:TBB)
@@ -36,7 +42,10 @@ vcpkg_cmake_configure(
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH share/cmake/sivid)
 vcpkg_fixup_pkgconfig()
-file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/share/doc" "${CURRENT_PACKAGES_DIR}/lib")
+file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/share/doc")
+if(NOT "library" IN_LIST FEATURES)
+    file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/lib")
+endif()
 
 file(INSTALL "${CMAKE_CURRENT_LIST_DIR}/usage" DESTINATION "${CURRENT_PACKAGES_DIR}/share/${PORT}")
 vcpkg_install_copyright(FILE_LIST "${SOURCE_PATH}/LICENSE")

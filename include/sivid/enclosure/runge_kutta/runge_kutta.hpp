@@ -865,7 +865,7 @@ private:
     vector b_;
 };
 
-#ifdef SIVID_COMPILED // its members are compiled once
+#ifdef SIVID_COMPILED_ALIKE // its members are compiled once
 extern template class implicit_stages<interval>;
 #endif
 

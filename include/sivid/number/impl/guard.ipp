@@ -13,7 +13,7 @@
 
 #include <cstddef>
 
-#ifdef SIVID_COMPILED
+#ifdef SIVID_COMPILED_ALIKE
 
 namespace sivid::inline SIVID_PACK_TARGET {
 

@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_DETAIL_PROGRAM_PARTS_HPP
 #define SIVID_PAVING_DETAIL_PROGRAM_PARTS_HPP
 
+#include <sivid/compiled.hpp>
 #include <sivid/measurement/record.hpp>
 
 #include <cstddef>
@@ -36,7 +37,7 @@ struct program_parts {
 };
 
 #ifdef SIVID_COMPILED
-[[nodiscard]] program_parts const& parts_of_program();
+[[nodiscard]] SIVID_DECL program_parts const& parts_of_program();
 #else
 inline program_parts known_parts{};
 [[nodiscard]] inline program_parts const& parts_of_program() { return known_parts; }

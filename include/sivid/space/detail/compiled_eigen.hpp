@@ -16,7 +16,7 @@ namespace sivid {
 /// depend on: the instructions of the machine and Eigen's own macros and version.
 template <int Version, int MaxAlignBytes, int MaxStaticAlignBytes, std::size_t IndexBytes,
           int StorageOrder>
-struct library_for_eigen {
+struct SIVID_SHOWN library_for_eigen {
     static char const sivid_compiled_has_another_eigen_alignment;
 };
 

@@ -725,7 +725,7 @@ doubleton<I> stepper<I>::map(tube_step<I> const& step, double to) {
                              flow_derivative(step, s), direct, deviation);
 }
 
-#ifdef SIVID_COMPILED // its members are compiled once
+#ifdef SIVID_COMPILED_ALIKE // its members are compiled once
 extern template class stepper<interval>;
 #endif
 

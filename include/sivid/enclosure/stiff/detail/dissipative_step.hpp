@@ -572,7 +572,7 @@ std::optional<step_map<I>> dissipative_step<I>::map(double from, double to,
     return result;
 }
 
-#ifdef SIVID_COMPILED // its members are compiled once
+#ifdef SIVID_COMPILED_ALIKE // its members are compiled once
 extern template class dissipative_step<interval>;
 #endif
 

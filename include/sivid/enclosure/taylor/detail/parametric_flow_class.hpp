@@ -787,7 +787,7 @@ void parametric_flow<Model>::learn(std::size_t l, bool moved, std::size_t order)
     ++lane.steps;
 }
 
-#ifdef SIVID_COMPILED // its members are compiled once
+#ifdef SIVID_COMPILED_ALIKE // its members are compiled once
 extern template class parametric_flow<taylor_model<double>>;
 extern template class parametric_flow<taylor_model<lanes<8>>>;
 #endif

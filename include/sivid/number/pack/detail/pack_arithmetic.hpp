@@ -427,7 +427,7 @@ template <class V>
 // (embedded rounding), round-to-nearest included: results do not depend on the rounding mode of
 // the thread, and compilers can neither fold, share nor contract them.
 
-#if SIVID_PACK_AVX512
+#if SIVID_PACK_AVX512 && SIVID_FUSED
 
 #include <immintrin.h>
 

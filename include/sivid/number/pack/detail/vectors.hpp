@@ -179,40 +179,38 @@ inline std::uint64_t sign_bits(vector_mask m) {
 #endif
 }
 
-/// The sum of each of as many vectors as one has lanes.
+/// The sums of as many rows of eight numbers as a vector has lanes; x holds row behind row. Numbers
+/// l and l + 2 of each four are added first, then the same of what that leaves, at last neighbours:
+/// in this order whatever a vector has, so that every machine has the same bits.
 template <class Vector>
-[[gnu::always_inline]] inline Vector across(Vector const* x) {
-#if SIVID_VECTOR_EXTENSION
+[[gnu::always_inline]] inline Vector sums_of_eights(Vector const* x) {
     constexpr std::size_t count = sizeof(Vector) / sizeof(double);
-    if constexpr (count == 2) {
-        return __builtin_shufflevector(x[0], x[1], 0, 2) +
-               __builtin_shufflevector(x[0], x[1], 1, 3);
+    if constexpr (count == 1) {
+        return ((x[0] + x[2]) + (x[4] + x[6])) + ((x[1] + x[3]) + (x[5] + x[7]));
+#if SIVID_VECTOR_EXTENSION
+    } else if constexpr (count == 2) {
+        Vector const y = (x[0] + x[1]) + (x[2] + x[3]), z = (x[4] + x[5]) + (x[6] + x[7]);
+        return __builtin_shufflevector(y, z, 0, 2) + __builtin_shufflevector(y, z, 1, 3);
     } else if constexpr (count == 4) {
-        Vector two[2];
-        for (std::size_t i = 0; i < 2; ++i) {
-            two[i] = __builtin_shufflevector(x[2 * i], x[2 * i + 1], 0, 4, 2, 6) +
-                     __builtin_shufflevector(x[2 * i], x[2 * i + 1], 1, 5, 3, 7);
-        }
-        return __builtin_shufflevector(two[0], two[1], 0, 1, 4, 5) +
-               __builtin_shufflevector(two[0], two[1], 2, 3, 6, 7);
+        auto const fold = [](Vector const& y, Vector const& z) SIVID_INLINED_LAMBDA {
+            return __builtin_shufflevector(y, z, 0, 1, 4, 5) +
+                   __builtin_shufflevector(y, z, 2, 3, 6, 7);
+        };
+        Vector const y = fold(fold(x[0], x[1]), fold(x[2], x[3])),
+                     z = fold(fold(x[4], x[5]), fold(x[6], x[7]));
+        return __builtin_shufflevector(y, z, 0, 2, 4, 6) +
+               __builtin_shufflevector(y, z, 1, 3, 5, 7);
     } else {
-        Vector two[4], four[2];
-        for (std::size_t i = 0; i < 4; ++i) {
-            Vector const y = x[2 * i], z = x[2 * i + 1];
-            two[i] = __builtin_shufflevector(y, z, 0, 8, 2, 10, 4, 12, 6, 14) +
-                     __builtin_shufflevector(y, z, 1, 9, 3, 11, 5, 13, 7, 15);
-        }
-        for (std::size_t i = 0; i < 2; ++i) {
-            Vector const y = two[2 * i], z = two[2 * i + 1];
-            four[i] = __builtin_shufflevector(y, z, 0, 1, 8, 9, 4, 5, 12, 13) +
-                      __builtin_shufflevector(y, z, 2, 3, 10, 11, 6, 7, 14, 15);
-        }
-        return __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 8, 9, 10, 11) +
-               __builtin_shufflevector(four[0], four[1], 4, 5, 6, 7, 12, 13, 14, 15);
-    }
-#else
-    return x[0];
+        auto const fold = [](Vector const& y, Vector const& z) SIVID_INLINED_LAMBDA {
+            return __builtin_shufflevector(y, z, 0, 1, 4, 5, 8, 9, 12, 13) +
+                   __builtin_shufflevector(y, z, 2, 3, 6, 7, 10, 11, 14, 15);
+        };
+        Vector const y = fold(fold(x[0], x[1]), fold(x[2], x[3])),
+                     z = fold(fold(x[4], x[5]), fold(x[6], x[7]));
+        return __builtin_shufflevector(y, z, 0, 2, 4, 6, 8, 10, 12, 14) +
+               __builtin_shufflevector(y, z, 1, 3, 5, 7, 9, 11, 13, 15);
 #endif
+    }
 }
 
 /// x in every lane.
@@ -256,9 +254,16 @@ template <std::size_t N>
 #endif
 #if SIVID_PACK_AVX2
 [[gnu::always_inline]] inline raw<4>::numbers root(raw<4>::numbers a) { return _mm256_sqrt_pd(a); }
+#if SIVID_FUSED
 [[gnu::always_inline]] inline raw<4>::numbers fused(raw<4>::numbers a, raw<4>::numbers b,
                                                     raw<4>::numbers c) {
     return _mm256_fmadd_pd(a, b, c);
+}
+#endif
+#endif
+#if SIVID_PACK_AVX512 // with zeroing: the plain form of g++ 12 warns about an uninitialised operand
+[[gnu::always_inline]] inline raw<8>::numbers root(raw<8>::numbers a) {
+    return _mm512_maskz_sqrt_pd(static_cast<__mmask8>(-1), a);
 }
 #endif
 template <class Numbers>

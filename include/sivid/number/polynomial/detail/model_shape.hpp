@@ -100,7 +100,7 @@ model_shape<C> model_shape<C>::make(std::size_t variables, std::size_t degree) {
             single_shape(variables, degree)};
 }
 
-#ifdef SIVID_COMPILED // every kernel comes with it
+#ifdef SIVID_COMPILED_ALIKE // every kernel comes with it
 extern template model_shape<double> model_shape<double>::make(std::size_t, std::size_t);
 extern template model_shape<lanes<8>> model_shape<lanes<8>>::make(std::size_t, std::size_t);
 #endif

@@ -554,20 +554,14 @@ using convolution_function = void (*)(monomial_space const&, double* totals,
     });
 }
 
-/// The eight partial sums of each row added up, pair by pair.
+/// The eight partial sums of each row added up.
 inline void add_up_rows(std::size_t terms, double const* totals, double* result) {
-    static_assert(row_parts == 1 || row_parts == 2 || row_parts == 4 || row_parts == 8);
+    static_assert(per_vector * row_parts == 8);
     auto const* sum = reinterpret_cast<stored_vector const*>(totals);
-    for (std::size_t g = 0; g < terms + 2; g += per_vector, sum += per_vector * row_parts) {
-        vector row[per_vector];
-        for (std::size_t i = 0; i < per_vector; ++i) {
-            auto const* const own = sum + i * row_parts;
-            row[i] = own[0];
-            if constexpr (row_parts == 2) row[i] += own[1];
-            if constexpr (row_parts >= 4) row[i] = (row[i] + own[1]) + (own[2] + own[3]);
-            if constexpr (row_parts == 8) row[i] += (own[4] + own[5]) + (own[6] + own[7]);
-        }
-        *reinterpret_cast<loose_vector*>(result + g) = lanes_detail::across(row);
+    for (std::size_t g = 0; g < terms + 2; g += per_vector, sum += 8) {
+        vector rows[8];
+        for (std::size_t i = 0; i < 8; ++i) rows[i] = sum[i];
+        *reinterpret_cast<loose_vector*>(result + g) = lanes_detail::sums_of_eights(rows);
     }
 }
 

@@ -89,8 +89,12 @@ class unsound_environment : public std::runtime_error {
 #define SIVID_REGISTER "+w"
 #endif
 
-/// Whether a product and a sum rounded once are one instruction.
-#if defined(__FMA__) || defined(__FP_FAST_FMA) || defined(__ARM_FEATURE_FMA)
+/// Whether a product and a sum rounded once are one instruction. SIVID_UNFUSED: no such instruction
+/// and no embedded rounding is used, so that the machines with and without them have the same bits
+/// (with -ffp-contract=off): libsivid, which is compiled for several.
+#if defined(SIVID_UNFUSED)
+#define SIVID_FUSED 0
+#elif defined(__FMA__) || defined(__FP_FAST_FMA) || defined(__ARM_FEATURE_FMA)
 #define SIVID_FUSED 1
 #else
 #define SIVID_FUSED 0

@@ -29,7 +29,7 @@ public:
     ///             motion can have that explains an experiment (`proved_motion`)
     /// @returns  nothing where there is no such curve, an argument has no bound, outliers are
     ///           allowed, or delays or effects' states are in the model
-    [[nodiscard]] static SIVID_DECL std::optional<shaped_problem>
+    [[nodiscard]] SIVID_DECL static std::optional<shaped_problem>
     of(identification_problem const& problem, std::function<bool()> const& keep_going = {});
 
     /// Takes the shapes of what curves are left, up to what moves them by less than a share.
