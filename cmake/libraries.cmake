@@ -42,7 +42,7 @@ function(sivid_add_library name)
 endfunction()
 
 sivid_add_library(sivid FOLDERS ${sivid_core_folders} impl FILES sivid.hpp compiled.hpp executor.hpp version.hpp
-                  work_limit.hpp
+                  work_clock.hpp work_limit.hpp
                   LINK Boost::headers Eigen3::Eigen)
 
 find_package(nlohmann_json 3.9 QUIET)

@@ -4,7 +4,8 @@
 //     sivid_benchmark_robots [--seconds S] [--no-windows] [--as-recorded] [--equations] [--growth]
 //     [NAME...]
 // Beside the hulls, in shares of the prior, stands a plain least-squares fit of the same record
-// (not proved). --as-recorded: no search with slower inputs first. --equations: what the
+// (not proved). Beside the seconds: what the work clock counts for each of the processor.
+// --as-recorded: no search with slower inputs first. --equations: what the
 // state equations leave of the prior by themselves, no trajectory. --growth: how the cost grows
 // with samples, constants, states, experiments.
 #include "machines.hpp"
@@ -20,6 +21,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -121,10 +123,14 @@ void show(machine const& m, identify_options const& options) {
     auto const begin = std::chrono::steady_clock::now();
     auto const fitted = fit(problem, fit_norm::squares);
     double const fit_seconds = seconds_since(begin);
+    work_watch const work;
+    auto const processor = std::clock();
     auto const found = identify(problem, options);
-    std::printf("%s: %s, %s, %.1f s, %zu boxes", m.how.what.c_str(),
+    double const busy = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+    std::printf("%s: %s, %s, %.1f s (counted %.2f times), %zu boxes", m.how.what.c_str(),
                 std::string{to_string(found.verdict)}.c_str(),
-                std::string{to_string(found.reason)}.c_str(), found.seconds, found.boxes);
+                std::string{to_string(found.reason)}.c_str(), found.seconds, work.spent() / busy,
+                found.boxes);
     for (auto const& r : found.journal) {
         if (!r.asked()) continue;
         std::printf("; %s %s, left %.3g of the volume in %.1f s", r.by.c_str(),

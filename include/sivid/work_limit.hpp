@@ -2,6 +2,8 @@
 #ifndef SIVID_WORK_LIMIT_HPP
 #define SIVID_WORK_LIMIT_HPP
 
+#include <sivid/work_clock.hpp>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -25,10 +27,14 @@ private:
     clock::time_point begin_ = clock::now();
 };
 
-/// How long work may go on: until a time, and as long as somebody does not say stop. Copies share
-/// one end; a copy is what all the options called `keep_going` take, for any thread.
+/// How long work may go on: as long as its budget of counted work lasts (`work_clock`), and nobody
+/// says stop. Copies share one end; a copy is what all the options called `keep_going` take, for
+/// any thread.
 ///   work_limit const limit(options.seconds, options.keep_going);
 ///   options.test.keep_going = limit;
+/// A limit within another, which has it as its `keep_going`, counts alone. One that has none is
+/// ended by the time as well, at its seconds by the clock: on a machine less than half as fast as
+/// the one of the prices, or one that has other work, `late()` says so.
 class work_limit {
     using clock = std::chrono::steady_clock;
 
@@ -38,52 +44,67 @@ public:
     explicit work_limit(double seconds, std::function<bool()> keep_going = nullptr)
         : shared_(std::make_shared<state>()) {
         shared_->keep_going = std::move(keep_going);
-        shared_->end = after(seconds);
+        shared_->outer = shared_->keep_going.target<work_limit>();
+        extend(seconds);
     }
 
-    [[nodiscard]] bool operator()() const {
-        return clock::now().time_since_epoch().count() < shared_->end && !refused();
+    [[nodiscard]] bool operator()() const { return !over() && !refused(); }
+    /// Whether its budget is used up, whatever others say.
+    [[nodiscard]] bool over() const { return !(work_clock::now() < shared_->end && in_time()); }
+    /// What is left of the budget; 0 when that is nothing, or somebody said stop.
+    [[nodiscard]] double seconds() const { return (*this)() ? left() : 0.0; }
+    /// The same, whatever others say.
+    [[nodiscard]] double left() const {
+        return over() ? 0.0 : std::max(0.0, shared_->end - work_clock::now());
     }
-    /// Time that is left; 0 when there is none, or somebody said stop.
-    [[nodiscard]] double seconds() const {
-        if (!(*this)()) return 0;
-        clock::duration const rest{shared_->end - clock::now().time_since_epoch().count()};
-        return std::max(0.0, std::chrono::duration<double>(rest).count());
-    }
-    /// Time since the limit was made [s].
+    /// What was spent of it, by this thread.
     [[nodiscard]] double spent() const { return watch_.spent(); }
+    /// Whether it was the time that ended it, or the limit that it is within: elsewhere more might
+    /// have been found.
+    [[nodiscard]] bool late() const {
+        return shared_->late || (shared_->outer != nullptr && shared_->outer->late());
+    }
     /// For what completes the work: at least so much from now on. Who said stop before is obeyed by
     /// allowing no more than that, and is not asked again.
     /// @given  nobody works by this limit meanwhile
     void allow(double seconds) {
         if (refused()) {
             shared_->said = true;
-            shared_->end = after(seconds);
-        } else {
-            shared_->end = std::max<clock::rep>(shared_->end, after(seconds));
+            shared_->end = shared_->latest = 0;
         }
+        extend(seconds);
     }
 
 private:
     struct state {
         std::function<bool()> keep_going;
-        std::atomic<clock::rep> end{0};
-        std::atomic<bool> said{false}; ///< stop, and that was heard
+        work_limit const* outer = nullptr; ///< within `keep_going`
+        std::atomic<double> end{0};        ///< by the work clock
+        std::atomic<double> latest{0};     ///< by the clock [s]
+        std::atomic<bool> said{false};     ///< stop, and that was heard
+        std::atomic<bool> late{false};
     };
     [[nodiscard]] bool refused() const {
         return !shared_->said && shared_->keep_going && !shared_->keep_going();
     }
-    [[nodiscard]] static clock::rep after(double seconds) {
-        constexpr double longest = 1e9; // 30 years: the clock counts nanoseconds
-        auto const span =
-            std::chrono::duration<double>(seconds > 0 ? std::min(seconds, longest) : 0.0);
-        return (clock::now() + std::chrono::duration_cast<clock::duration>(span))
-            .time_since_epoch()
-            .count();
+    [[nodiscard]] bool in_time() const {
+        if (shared_->outer != nullptr && !shared_->said) return true; // it is asked
+        if (time() < shared_->latest) return true;
+        shared_->late = true;
+        return false;
+    }
+    void extend(double seconds) {
+        constexpr double longest = 1e9; // 30 years
+        double const more = seconds > 0 ? std::min(seconds, longest) : 0.0;
+        shared_->end = std::max<double>(shared_->end, work_clock::now() + more);
+        shared_->latest = std::max<double>(shared_->latest, time() + more);
+    }
+    [[nodiscard]] static double time() {
+        return std::chrono::duration<double>(clock::now().time_since_epoch()).count();
     }
 
     std::shared_ptr<state> shared_;
-    stopwatch watch_;
+    work_watch watch_;
 };
 
 } // namespace sivid

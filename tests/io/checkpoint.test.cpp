@@ -31,7 +31,7 @@ identification_state some_state() {
 
 TEST_CASE("a checkpoint states format, digest and exact numbers, line by line") {
     auto const text = checkpoint_text(some_state(), "a-problem");
-    CHECK(text.rfind("sivid-checkpoint-8\nsha256 ", 0) == 0);
+    CHECK(text.rfind("sivid-checkpoint-9\nsha256 ", 0) == 0);
     auto const body = text.substr(text.find('\n', text.find('\n') + 1) + 1);
     CHECK(text.find(sha256(body)) != std::string::npos);
     CHECK(body.find("problem a-problem\n") != std::string::npos);

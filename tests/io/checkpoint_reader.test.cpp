@@ -218,7 +218,7 @@ TEST_CASE("a text with a right digest and wrong contents is refused, not believe
     auto const text = some_checkpoint(problem, options);
     auto const body = text.substr(text.find('\n', text.find("sha256")) + 1);
     auto const sealed = [](std::string const& contents) {
-        return "sivid-checkpoint-8\nsha256 " + sha256(contents) + "\n" + contents;
+        return "sivid-checkpoint-9\nsha256 " + sha256(contents) + "\n" + contents;
     };
     CHECK(sealed(body) == text);
     support::draws d(5202);
@@ -269,7 +269,7 @@ TEST_CASE("checkpoints of other problems, options and versions are refused, with
     auto body = text.substr(text.find('\n', text.find("sha256")) + 1);
     body.replace(0, body.find('\n'), "version 0.0.9");
     CHECK_THROWS_WITH(
-        parse_checkpoint("sivid-checkpoint-8\nsha256 " + sha256(body) + "\n" + body, "f", digest),
+        parse_checkpoint("sivid-checkpoint-9\nsha256 " + sha256(body) + "\n" + body, "f", digest),
         ContainsSubstring("'0.0.9'") && ContainsSubstring("begin anew"));
     for (auto const* former : {"sivid-checkpoint-3\n", "sivid-checkpoint-7\n"}) {
         CHECK_THROWS_WITH(parse_checkpoint(former, "f", digest),

@@ -89,7 +89,11 @@ public:
         if (request.tell) return out.take();
         stopwatch const clock;
         std::vector<assessment<knowledge>> judged;
-        for (auto const& q : request.questions) judged.push_back(judge(q));
+        for (auto const& q : request.questions) {
+            work_watch const took;
+            judged.push_back(judge(q));
+            judged.back().work = took.spent();
+        }
         out.put(clock.spent());
         for (auto const& a : judged) out.put(a).put(a.knowledge != nullptr);
         return out.take();
@@ -120,7 +124,9 @@ private:
         for (auto const& x : from.boxes)
             require(x.size() == prior_.size() && !is_empty(x) && subset(x, prior_),
                     "a box outside the prior");
+        work_watch const took;
         auto says = test_->learn(from.boxes);
+        if (!says.empty()) says.front().work = took.spent(); // of all
         lesson l;
         for (auto const& a : says) {
             l.found.push_back(a.knowledge);

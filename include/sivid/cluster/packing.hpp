@@ -56,7 +56,7 @@ void serialize(Archive& a, sivid::box& x, unsigned version) {
 /// All but the knowledge, which stays where it was found.
 template <class Archive, class Knowledge>
 void serialize(Archive& a, sivid::assessment<Knowledge>& says, unsigned) {
-    a& says.verdict& says.rest& says.smear& says.blind& says.cost& says.proof;
+    a& says.verdict& says.rest& says.smear& says.blind& says.cost& says.work& says.proof;
 }
 
 } // namespace boost::serialization

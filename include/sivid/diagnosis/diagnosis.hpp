@@ -306,6 +306,7 @@ struct diagnosis {
     std::vector<std::string> assumptions; ///< all that anything proved rests on
     std::vector<withdrawn_claim> withdrawn;
     double seconds = 0;
+    bool by_clock = false; ///< as in `identification`
     bool interrupted = false;
 };
 

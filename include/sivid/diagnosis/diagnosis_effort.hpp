@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -31,35 +32,36 @@ public:
     /// @param progress  called with what is being done; false ends the diagnosis; may be empty
     diagnosis_effort(double seconds, feasibility_test_options test,
                      std::function<bool(std::string const&)> progress)
-        : all_(seconds), test_(std::move(test)), progress_(std::move(progress)) {
-        auto const asked = test_.keep_going;
-        test_ = limited(std::move(test_), [this, asked] { return (!asked || asked()) && go_on(); });
-    }
+        : all_(seconds),
+          progress_(std::move(progress)),
+          limit_(seconds, test.keep_going),
+          going_(std::numeric_limits<double>::infinity(), [this] { return limit_() && wanted(); }),
+          test_(limited(std::move(test), going_)) {}
     diagnosis_effort(diagnosis_effort const&) = delete;
     diagnosis_effort& operator=(diagnosis_effort const&) = delete;
 
+    /// Since it began [s].
     [[nodiscard]] double seconds() const { return clock_.spent(); }
-    [[nodiscard]] double left() const { return std::max(0.0, all_ - seconds()); }
+    /// Of the budget.
+    [[nodiscard]] double left() const { return limit_.left(); }
     [[nodiscard]] bool stopped() const { return stopped_; }
-    /// With the clock of the diagnosis, so that no run outlasts it.
+    /// Whether the time ended anything.
+    [[nodiscard]] bool late() const { return limit_.late(); }
+    /// With the limit of the diagnosis, so that no run outlasts it.
     [[nodiscard]] feasibility_test_options const& test() const { return test_; }
 
     /// Whether there is time for a step.
     bool go_on(std::string const& what) {
-        std::lock_guard const alone(asking_);
-        doing_ = what;
-        ask();
-        return !stopped_;
+        {
+            std::lock_guard const alone(asking_);
+            doing_ = what;
+            ask();
+        }
+        return go_on();
     }
     /// The same in the midst of it, from any thread and as often as one likes.
     bool go_on() {
-        if (stopped_) return false;
-        if (left() <= 0) {
-            stopped_ = true;
-        } else if (progress_ && seconds() - asked_ > pause) {
-            std::unique_lock const alone(asking_, std::try_to_lock);
-            if (alone.owns_lock() && seconds() - asked_ > pause) ask();
-        }
+        if (!stopped_ && !going_()) stopped_ = true;
         return !stopped_;
     }
 
@@ -68,9 +70,8 @@ public:
         return std::min(left(), e.share * all_);
     }
     /// Whether a step that begins now may go on, for this share of all time; from any thread.
-    [[nodiscard]] std::function<bool()> within(double share) {
-        double const end = left() - seconds_of({0, share});
-        return [this, end] { return left() >= end && go_on(); };
+    [[nodiscard]] work_limit within(double share) const {
+        return work_limit(seconds_of({0, share}), going_);
     }
     /// A search for the inflation of a problem that spends no more.
     [[nodiscard]] inflation_options search(identification_problem const& p,
@@ -83,7 +84,7 @@ public:
     }
     /// A refutation by interval observers that spends no more.
     [[nodiscard]] observer_effort observers(step_effort const& e) {
-        return {e.boxes, seconds_of(e), [this] { return go_on(); }, false};
+        return {e.boxes, seconds_of(e), going_, false};
     }
     /// What such a search has spent, in boxes.
     [[nodiscard]] static std::size_t boxes_of(identification_problem const& p,
@@ -95,18 +96,27 @@ private:
     static constexpr double pause = 0.1; ///< between two questions whether to go on [s]
 
     void ask() {
-        if (left() <= 0 || (progress_ && !progress_(doing_))) stopped_ = true;
+        if (progress_ && !progress_(doing_)) stopped_ = true;
         asked_ = seconds();
+    }
+    [[nodiscard]] bool wanted() {
+        if (!stopped_ && progress_ && seconds() - asked_ > pause) {
+            std::unique_lock const alone(asking_, std::try_to_lock);
+            if (alone.owns_lock() && seconds() - asked_ > pause) ask();
+        }
+        return !stopped_;
     }
 
     double all_;
-    feasibility_test_options test_;
     std::function<bool(std::string const&)> progress_;
     std::string doing_;
     std::mutex asking_;
     std::atomic<double> asked_ = 0; ///< when
     std::atomic<bool> stopped_ = false;
     stopwatch clock_;
+    work_limit limit_;
+    work_limit going_; ///< within it, as long as progress is wanted
+    feasibility_test_options test_;
 };
 
 } // namespace sivid

@@ -2,6 +2,7 @@
 #ifndef SIVID_IMPL_NUMBER_IPP
 #define SIVID_IMPL_NUMBER_IPP
 
+#include <sivid/impl/work_clock.ipp>
 #include <sivid/number/impl/decimal.ipp>
 #include <sivid/number/impl/decimal_output.ipp>
 #include <sivid/number/impl/guard.ipp>

@@ -21,7 +21,7 @@ namespace sivid {
 
 namespace io_detail {
 
-inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-8";
+inline constexpr std::string_view checkpoint_format = "sivid-checkpoint-9";
 
 /// One letter a verdict, in the order of box_verdict.
 inline constexpr std::string_view verdict_letters = "ioup";
@@ -103,7 +103,7 @@ private:
 template <class Lines, class State>
 void list_state(Lines& line, State& state) {
     line("asked", state.problem);
-    line("spent", state.seconds);
+    line("spent", state.seconds, state.work);
     if (line.begin(state.guess, "guess", "no_guess")) {
         auto& fit = *state.guess;
         line.rest(size_of{fit.starts}, fit.inflation, fit.squares);
@@ -136,7 +136,7 @@ void list_state(Lines& line, State& state) {
     line("last_hull", s.last_hull);
     line("counters", s.pushed, s.tested, s.cost, s.batches, s.accuracy_reached, s.measured_at,
          s.rested, s.next_look);
-    line("numbers", s.waiting_volume, s.seconds);
+    line("numbers", s.waiting_volume, s.seconds, s.work);
     line("paved", size_of{s.paved});
     for (auto& b : s.paved) {
         line.begin(b.verdict);

@@ -50,7 +50,7 @@ struct product_paving {
 
 /// How far a search went and how far it might have gone: what its reason to stop follows from.
 struct search_effort {
-    double seconds = 0, most_seconds = 0; ///< of the search alone, when it stopped
+    double seconds = 0, most_seconds = 0; ///< of the budget, spent by the search when it stopped
     std::size_t boxes = 0, most_boxes = 0;
     std::optional<std::size_t> most_bytes; ///< nothing: as many as there are
     /// What it was to end at, as in `inversion_options`; nothing: not stated.
@@ -88,6 +88,9 @@ struct identification {
     std::size_t boxes = 0;
     std::size_t integrations = 0;
     double seconds = 0;
+    /// The time ended what its budget of counted work would have gone on with: on a faster machine,
+    /// or one with less to do, the answer may say more.
+    bool by_clock = false;
 
     /// Nothing was decided, or more than half of the prior's volume is left.
     [[nodiscard]] bool excludes_little() const {

@@ -16,6 +16,7 @@ namespace sivid {
 struct identification_state {
     std::optional<approximate_fit> guess;
     double seconds = 0;           ///< spent before the search
+    double work = 0;              ///< the same of the budget, by the `work_clock`
     std::optional<leftover> left; ///< before the search; nothing: all of it
     contraction_journal journal{};
     search_state search;

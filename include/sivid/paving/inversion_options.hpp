@@ -40,6 +40,7 @@ struct inversion_options {
     /// Stop when the inner volume reaches this fraction of the outer one (1: never), whatever the
     /// accuracy. `stop_reason::inside_share`.
     double sufficient_ratio = 0.5;
+    /// Of one core of the machine of the prices: see `work_limit`. The time ends it as well.
     double seconds = 60;
     /// Boxes tested; a step that was begun is ended, and one that learns may test `batches` full
     /// sets.
@@ -83,6 +84,8 @@ struct inversion {
     std::size_t tested = 0;
     std::size_t cost = 0;       ///< sum over the tests, in their unit
     double seconds = 0;         ///< of all runs
+    double work = 0;            ///< the same of the budget, by the `work_clock`
+    bool by_clock = false;      ///< the time ended it: see `work_limit`
     exclusion_proof proof = {}; ///< where it was asked for
 };
 

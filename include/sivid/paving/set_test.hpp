@@ -31,6 +31,8 @@ struct assessment {
     bool blind = false;
     /// What learning about this box took, in a unit of the test's (feasibility_test: integrations).
     std::size_t cost = 0;
+    /// What judging the box took, by the `work_clock`; set by who asks ahead of its turn.
+    double work = 0;
     /// How to prove that nothing of the box but `rest` belongs to the set; may be left out.
     exclusion_proof proof = {};
 };

@@ -65,11 +65,12 @@ public:
     [[nodiscard]] flat_paving operator()() {
         require_sound_environment();
         stopwatch const clock;
+        work_limit const limit(options_.seconds, options_.keep_going);
         prepare();
         while (!blocks_.empty() || !boxes_.empty()) {
             if (options_.keep_going && !options_.keep_going()) {
                 stop(stop_reason::cancelled);
-            } else if (auto const why = used_up(options_, clock.spent(), result_.tested, bytes())) {
+            } else if (auto const why = used_up(options_, limit, result_.tested, bytes())) {
                 stop(*why);
             } else if (!boxes_.empty() &&
                        (blocks_.empty() || boxes_.begin()->first >= blocks_.begin()->first.first)) {

@@ -347,7 +347,8 @@ private:
     }
 
     void print_effort() const {
-        std::cout << "  " << report::duration_text(found_.seconds);
+        std::cout << "  " << report::duration_text(found_.seconds)
+                  << (found_.by_clock ? ", ended by the clock: a faster machine may say more" : "");
         if (found_.boxes > 0) // else nobody counted
             std::cout << ", " << found_.boxes << " boxes, " << found_.integrations
                       << " validated integrations";

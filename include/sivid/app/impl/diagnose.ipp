@@ -203,6 +203,7 @@ inline void print_summary(diagnosis const& d, std::string const& id,
     if (exit_code_of(d) == undecided)
         std::cout << "  ended early: what is open may be known with more time (--budget)\n";
     std::cout << "  " << report::duration_text(d.seconds)
+              << (d.by_clock ? ", ended by the clock: a faster machine may say more" : "")
               << "; written: " << (out / "report.html").string()
               << " and diagnosis.json beside it\n";
 }

@@ -314,9 +314,7 @@ private:
         return !stopped_;
     }
     /// For any thread.
-    [[nodiscard]] bool in_time() const {
-        return clock_.spent() < options_.seconds && (!options_.go_on || options_.go_on());
-    }
+    [[nodiscard]] bool in_time() const { return limit_(); }
     static void take_figures(screened& s) {
         s.figures.inflation = s.fit.inflation;
         s.figures.squares = s.fit.squares;
@@ -388,7 +386,7 @@ private:
     impossible_sets impossible_;
     std::size_t measurements_ = 0;
     bool stopped_ = false; ///< changed by one thread at a time
-    stopwatch clock_;
+    work_limit limit_{options_.seconds, options_.go_on};
 };
 
 } // namespace sivid

@@ -208,6 +208,7 @@ private:
         l.used.assign(about.size(), 0);
         for (auto const& x : about) {
             result.push_back(answer_about(x, in));
+            work_clock::advance(result.back().work);
             bool const any = in.take<bool>();
             auto const bytes = static_cast<std::size_t>(in.take<std::uint64_t>());
             frame_bytes_of(x);

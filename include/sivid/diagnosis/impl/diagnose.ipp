@@ -78,6 +78,7 @@ public:
         state_change(run_);
         d.interrupted = effort_.stopped() || !d.tried.complete();
         d.seconds = effort_.seconds();
+        d.by_clock = effort_.late();
         return std::move(run_);
     }
 

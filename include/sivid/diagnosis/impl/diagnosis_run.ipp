@@ -77,9 +77,7 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         search.seconds = (before ? 0.15 : 0.8) * seconds;
         search.boxes = (before ? boxes / 8 : boxes / 2) *
                        (run.base.experiments.size() + judged.experiments.size() + 1);
-        search.test = limited(test, [&test, clock, end = share * seconds] {
-            return clock.spent() < end && !test.cancelled();
-        });
+        search.test = limited(test, work_limit(share * seconds, test.keep_going));
         return judge_by_holdout(candidate, bound, explaining, judged, over, search);
     };
     test.workers(answered ? 2 : 1, [&](std::size_t k) {

@@ -9,6 +9,7 @@
 #include <sivid/enclosure/series/detail/power_sum.hpp>
 #include <sivid/enclosure/series/detail/variation_step.hpp>
 #include <sivid/enclosure/taylor/detail/parametric_flow_class.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <algorithm>
 #include <array>
@@ -602,7 +603,9 @@ void parametric_flow<Model>::carry_generators(trial const& t, C const& length,
         for (std::size_t i = 0; i < n; ++i) {
             product_sum<C> sum(image_[i]);
             for (std::size_t l = 0; l < n; ++l) {
-                if (present[l] != 0 && flow_->sensitive(i, l)) sum.add(v[i * n + l], g[l]);
+                if (present[l] == 0 || !flow_->sensitive(i, l)) continue;
+                sum.add(v[i * n + l], g[l]);
+                work_clock::count(1, g[l].shape().product_work);
             }
             sum.finish();
             if (!all) image_[i] = select(carried, image_[i], g[i]);

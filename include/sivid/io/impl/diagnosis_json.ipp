@@ -49,7 +49,9 @@ public:
         json_.list("withdrawn", d_->withdrawn, [&](withdrawn_claim const& w) {
             json_.object("claim", w.claim, "reason", w.reason);
         });
-        json_.members("interrupted", d_->interrupted, "seconds", d_->seconds).end_object();
+        json_.members("interrupted", d_->interrupted, "seconds", d_->seconds);
+        if (d_->by_clock) json_.members("by_clock", true);
+        json_.end_object();
         return json_.text();
     }
 

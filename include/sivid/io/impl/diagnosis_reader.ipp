@@ -51,6 +51,7 @@ public:
         d.assumptions = texts(root.at("assumptions"));
         d.interrupted = root.at("interrupted").boolean();
         d.seconds = nearest_number(root.at("seconds"));
+        if (auto const* late = root.find("by_clock")) d.by_clock = late->boolean();
         return result;
     }
 

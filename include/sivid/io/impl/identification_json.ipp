@@ -172,7 +172,9 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         write_identifiability(json, *options.identifiability);
     }
     json.members("boxes", found.boxes, "integrations", found.integrations);
-    json.members("seconds", found.seconds).end_object();
+    json.members("seconds", found.seconds);
+    if (found.by_clock) json.members("by_clock", true);
+    json.end_object();
     return json.text();
 }
 

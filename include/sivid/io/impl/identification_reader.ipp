@@ -121,6 +121,7 @@ inline void read_verdict(json_value const& root, stored_identification& result) 
     }
     result.reason = stop_reason_of(root.at("stop_reason"));
     if (auto const* search = root.find("search")) result.effort = read_effort(*search);
+    if (auto const* late = root.find("by_clock")) result.by_clock = late->boolean();
     if (auto const* enclosures = root.find("enclosures"))
         result.tolerance = nearest_number(enclosures->at("tolerance"));
 }

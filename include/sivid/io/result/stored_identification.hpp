@@ -69,6 +69,7 @@ struct stored_identification {
     sivid::verdict verdict = sivid::verdict::undecided;
     std::string grounds; ///< what the verdict is said to rest on; "" in older files
     stop_reason reason = stop_reason::decided;
+    bool by_clock = false; ///< the time ended something: see `identification`
     std::optional<search_effort> effort;
     /// Of certificates.csv: how the exclusions of the products, or else of the boxes, are proved.
     /// Empty where there is no such file.

@@ -7,6 +7,7 @@
 #include <sivid/model/graph/program.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -136,6 +137,7 @@ private:
         for (; k < directions_.size() && directions_[k].of == target; ++k) sharpen(directions_[k]);
     }
     void sharpen(direction const& d) {
+        work_clock::count(8 + d.rest.size(), work_clock::interval);
         auto const& x = values_[d.x];
         auto c = traits::point(0.0);
         for (auto const k : d.rest) c = traits::add(c, values_[k]);

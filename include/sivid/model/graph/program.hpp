@@ -4,6 +4,7 @@
 
 #include <sivid/model/graph/graph.hpp>
 #include <sivid/model/graph/rewrite.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -78,6 +79,7 @@ public:
     /// @returns where something is not defined
     template <class A>
     typename A::mask run(std::vector<typename A::value_type>& memory) const {
+        work_clock::count(steps_.size(), A::lanes * work_clock::interval);
         typename A::mask undefined{};
         auto* const m = memory.data();
         for (auto const& s : steps_) {
@@ -88,6 +90,7 @@ public:
     /// @param each  (step, where it is not defined), after each step
     template <class A, class Each>
     void run(std::vector<typename A::value_type>& m, Each const& each) const {
+        work_clock::count(steps_.size(), A::lanes * work_clock::interval);
         for (auto const& s : steps_) {
             typename A::mask undefined{};
             m[s.target] = apply<A>(s.op, m[s.a], m[s.b], s.index, undefined);

@@ -7,6 +7,7 @@
 #include <sivid/model/graph/tape.hpp>
 #include <sivid/model/series/detail/series_storage.hpp>
 #include <sivid/number/polynomial/detail/bernstein.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <cstddef>
 #include <limits>
@@ -340,9 +341,11 @@ private:
             if (i.op == operation::time) return time_;
             return i.op == operation::state ? T(state(index, 0)) : T(input(index, 0));
         };
+        double work = 0;
         for (std::size_t n = first; n < last; ++n) {
             auto const& i = program_->varying()[n];
             auto& result = at(i.target, k);
+            work += model_detail::work_of(result) * static_cast<double>(k + 1);
             switch (i.op) {
             case operation::time:
                 result = k == 0 ? time_ : k == 1 ? time_slope_ : arithmetic::point(0.0);
@@ -375,6 +378,7 @@ private:
                 if (row_[i.target] != no_row) rows_.put(row_[i.target], k, result);
             }
         }
+        work_clock::count(1, work);
     }
 
     T& at(std::size_t slot, std::size_t k) {

@@ -19,6 +19,7 @@
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -35,7 +36,7 @@ public:
         : problem_(&problem),
           options_(std::move(options)),
           resumed_(options_.resume.get()),
-          limit_(options_.search.seconds - earlier(), options_.search.keep_going),
+          limit_(options_.search.seconds - worked(), options_.search.keep_going),
           map_(options_.test.contract ? coordinates_of(problem) : std::nullopt),
           asked_(map_ ? map_->problem() : problem, limited(options_.test, limit_), options_.search,
                  limit_),
@@ -46,12 +47,7 @@ public:
 
     [[nodiscard]] identification operator()() {
         name_problem();
-        if (options_.test.contract) propose();
-        auto const before = asked_.integrations();
-        if (resumed_)
-            take_up();
-        else if (options_.test.contract && limit_())
-            contract(options_.strategy, asked_);
+        auto const before = prepare();
         auto const asking = asked_.integrations() - before; // the search finds what was answered
         result_.journal = asked_.journal();
         auto found = search();
@@ -67,13 +63,18 @@ public:
         result_.integrations += asked_.integrations() - asking;
         if (in_parameters_) result_.integrations += in_parameters_->integrations();
         for (auto const& r : result_.journal) result_.integrations += r.integrations;
-        result_.seconds = limit_.spent() + earlier();
+        result_.seconds = clock_.spent() + earlier();
+        result_.by_clock = limit_.late() || found.by_clock;
         return std::move(result_);
     }
 
 private:
+    /// Of the runs before: time, and what they spent of the budget.
     [[nodiscard]] double earlier() const {
         return resumed_ ? resumed_->seconds + resumed_->search.seconds : 0;
+    }
+    [[nodiscard]] double worked() const {
+        return resumed_ ? resumed_->work + resumed_->search.work : 0;
     }
     /// Only states know what was asked for.
     void name_problem() {
@@ -82,6 +83,19 @@ private:
         throw std::invalid_argument("identify: the state to resume from is of another problem: "
                                     "other data, another model or prior, or other budgets of "
                                     "outliers; resume with what it was begun with, or begin anew");
+    }
+    /// Fits and contracts, or takes up what an earlier run found and counted.
+    /// @returns integrations until the first contractor
+    [[nodiscard]] std::size_t prepare() {
+        std::optional<uncounted> again;
+        if (resumed_) again.emplace();
+        if (options_.test.contract) propose();
+        auto const before = asked_.integrations();
+        if (resumed_)
+            take_up();
+        else if (options_.test.contract && limit_())
+            contract(options_.strategy, asked_);
+        return before;
     }
     /// Fits, or takes a fit up, and verifies it.
     void propose() {
@@ -117,15 +131,17 @@ private:
         auto const left = asked_.narrowed() ? std::optional{asked_.left()} : std::nullopt;
         // A fit that was cut short is not what an uninterrupted run would go on from.
         bool const prepared = resumed_ || limit_();
-        double const spent = limit_.spent() + (resumed_ ? resumed_->seconds : 0);
+        double const spent = clock_.spent() + (resumed_ ? resumed_->seconds : 0);
+        double const work = limit_.spent() + (resumed_ ? resumed_->work : 0);
         auto& how = options_.search;
-        how.seconds = std::max(0.0, how.seconds - spent);
+        how.seconds = std::max(0.0, how.seconds - work);
         auto search = how;
         if (map_) search.keep_outside = true; // what is drawn is told from them
         search.checkpoint = nullptr;
         if (options_.checkpoint && prepared) {
-            search.checkpoint = [&, spent](search_state const& now) {
-                options_.checkpoint({result_.guess, spent, left, result_.journal, now, asked_for_});
+            search.checkpoint = [&, spent, work](search_state const& now) {
+                options_.checkpoint(
+                    {result_.guess, spent, work, left, result_.journal, now, asked_for_});
             };
         }
         search.resume = nullptr;
@@ -181,6 +197,7 @@ private:
     identification_problem const* problem_;
     identify_options options_;
     identification_state const* resumed_;
+    stopwatch clock_;
     work_limit limit_;
     std::optional<reduction> map_; ///< to the sides that are searched
     inquiry asked_;

@@ -28,7 +28,8 @@ namespace paving_detail {
 class inflation_work {
 public:
     inflation_work(identification_problem const& problem, inflation_options const& options)
-        : problem_(&problem),
+        : limit_(options.seconds, options.test.keep_going),
+          problem_(&problem),
           options_(&options),
           everything_(box_explorer::without_limit(problem)),
           points_(everything_, test_within_time()),
@@ -67,20 +68,15 @@ private:
     [[nodiscard]] identification_problem const& working() const {
         return map_ ? map_->problem() : *problem_;
     }
-    [[nodiscard]] double elapsed() const { return clock_.spent(); }
     [[nodiscard]] std::size_t work() const {
         return search_.integrations() + search_.tested() + points_.integrations();
     }
     [[nodiscard]] bool within_time() const {
-        return goes_on() && (!options_->keep_going || options_->keep_going());
+        return limit_() && (!options_->keep_going || options_->keep_going());
     }
-    /// For any thread, within runs: one of a long record takes seconds.
-    [[nodiscard]] bool goes_on() const {
-        auto const& run = options_->test;
-        return elapsed() < options_->seconds && !run.cancelled();
-    }
+    /// Within runs, too: one of a long record takes seconds.
     [[nodiscard]] feasibility_test_options test_within_time() const {
-        return limited(options_->test, [this] { return goes_on(); });
+        return limited(options_->test, limit_);
     }
     /// Asked between steps: a step that work cut short would have worked in vain, and where it was
     /// cut would depend on the threads.
@@ -154,11 +150,12 @@ private:
         result.hull = map_ ? map_->backward(problem_->prior, around) : around;
         result.boxes = search_.tested();
         result.integrations = search_.integrations() + points_.integrations();
-        result.seconds = elapsed();
+        result.seconds = clock_.spent();
         return result;
     }
 
     stopwatch clock_;
+    work_limit limit_;
     identification_problem const* problem_;
     inflation_options const* options_;
     identification_problem everything_;

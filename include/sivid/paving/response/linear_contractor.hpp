@@ -4,6 +4,7 @@
 
 #include <sivid/paving/response/relaxed_intersection.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -24,6 +25,7 @@ struct linear_constraint {
 [[nodiscard]] inline bool contract(box& r, linear_constraint const& c) {
     using traits = interval_traits<interval>;
     std::size_t const n = r.size();
+    work_clock::count(4 * n, work_clock::interval);
     std::vector<interval> suffix(n + 1, traits::point(0.0));
     for (std::size_t j = n; j-- > 0;) {
         suffix[j] = traits::add(suffix[j + 1], traits::mul(traits::point(c.gradient[j]), r[j]));

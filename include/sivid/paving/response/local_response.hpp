@@ -5,6 +5,7 @@
 #include <sivid/paving/response/linear_contractor.hpp>
 #include <sivid/paving/response/response.hpp>
 #include <sivid/space/box.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -92,6 +93,7 @@ struct shifted_response {
     auto const& table = *known.table;
     auto const outputs = known.outputs();
     auto const n = table.variables;
+    work_clock::count(known.coefficients.size() * (n + 2), 0.4);
     auto const [c, rounding] = shifted(known, middle);
     local_response local;
     local.middle = std::move(middle);

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_SEARCH_SEARCH_BUDGET_HPP
 
 #include <sivid/paving/verdict.hpp>
+#include <sivid/work_limit.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -11,13 +12,14 @@ namespace sivid {
 
 /// Which budget of a search over boxes is used up, if one is. It means the same for every search:
 /// what is proved until then stands, and what still waits stays undecided.
-/// @tparam Options  with `seconds`, `boxes` and `memory` [bytes]
+/// @tparam Options  with `boxes` and `memory` [bytes]
+/// @param limit  of the time
 /// @param held  bytes of boxes and of what was learnt about them: what they hold, without the
 ///              allocator's share and the spare room of growing lists
 template <class Options>
-[[nodiscard]] std::optional<stop_reason> used_up(Options const& most, double seconds,
+[[nodiscard]] std::optional<stop_reason> used_up(Options const& most, work_limit const& limit,
                                                  std::size_t tested, std::size_t held) {
-    if (!(seconds <= most.seconds)) return stop_reason::time_budget;
+    if (limit.over()) return stop_reason::time_budget;
     if (tested >= most.boxes) return stop_reason::box_budget;
     if (held > most.memory) return stop_reason::memory_budget;
     return std::nullopt;

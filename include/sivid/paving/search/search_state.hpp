@@ -50,6 +50,7 @@ struct search_state {
     bool rested = false;
     std::size_t next_look = 0;
     double seconds = 0;
+    double work = 0; ///< of the budget, by the `work_clock`
     /// Whether `paved` holds the boxes proved outside, too. Without them nobody can tell whether a
     /// box is missing.
     bool outside_kept = true;

@@ -91,7 +91,10 @@ inline std::vector<card> diagnosis_cards(diagnosis_view const& v) {
         out.push_back({"gap removed, fit data", shrink_text(v.shrink_fit), "\xE2\x9C\x93 proved"});
     }
     if (v.seconds > 0) {
-        out.push_back({"time", duration_text(v.seconds), v.interrupted ? "stopped early" : ""});
+        out.push_back({"time", duration_text(v.seconds),
+                       v.by_clock      ? "the clock ended it: a faster machine may say more"
+                       : v.interrupted ? "stopped early"
+                                       : ""});
     }
     return out;
 }

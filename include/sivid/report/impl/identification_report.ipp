@@ -339,8 +339,10 @@ private:
             view_.proved.push_back(
                 fewest_outliers_sentence(found_.fewest->total.least, found_.fewest->total.most));
         }
-        view_.statistics = {found_.seconds, found_.boxes, found_.integrations,
-                            std::string{to_string(found_.reason)}};
+        view_.statistics = {
+            found_.seconds, found_.boxes, found_.integrations,
+            std::string{to_string(found_.reason)} +
+                (found_.by_clock ? " by the clock: a faster machine may say more" : "")};
         view_.tried = tried_words(found_.journal);
         view_.statistics.why = reach_words(problem_, found_);
         view_.version = "sivid " + std::string{version};

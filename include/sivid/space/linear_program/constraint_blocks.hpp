@@ -3,6 +3,7 @@
 #define SIVID_SPACE_LINEAR_PROGRAM_CONSTRAINT_BLOCKS_HPP
 
 #include <sivid/space/linear_program/dual_simplex.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <Eigen/Core>
 
@@ -58,6 +59,7 @@ public:
         for (std::size_t b = 0; b < blocks_->size(); ++b) {
             auto const& block = (*blocks_)[b];
             auto const count = block.functions();
+            work_clock::count(count * (block.variable.size() + 1), 0.1);
             value_.assign(block.offset.begin(), block.offset.end());
             for (std::size_t v = 0; v < block.variable.size(); ++v) {
                 double const d = point[block.variable[v]];

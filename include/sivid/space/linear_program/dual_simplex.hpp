@@ -3,6 +3,7 @@
 #define SIVID_SPACE_LINEAR_PROGRAM_DUAL_SIMPLEX_HPP
 
 #include <sivid/space/linear_program/detail/basis_factors.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,7 @@ public:
             if (k == most || enters_.normal.size() != goal_.size()) {
                 return settle(outcome::stopped);
             }
+            work_clock::count(goal_.size() * goal_.size(), 0.4);
             direction_ = enters_.normal;
             factors_.solve(direction_);
             if (!finite(direction_)) return settle(outcome::stopped);

@@ -5,6 +5,7 @@
 #include <sivid/approximate/simulate/approximate_model.hpp>
 #include <sivid/approximate/simulate/simulation_mesh.hpp>
 #include <sivid/approximate/simulate/stepping.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <Eigen/Core>
 
@@ -132,6 +133,7 @@ public:
         }
         using four = Eigen::Array<double, lanes, 1>;
         auto const blocks = (active_ + lanes - 1) / lanes;
+        work_clock::count(blocks * (values_.size() + n), 0.2);
         double const* s = x.data() + padded(n);
         double* out = dx.data() + padded(n);
         for (std::size_t b = 0; b < blocks; ++b, s += n * lanes, out += n * lanes) {

@@ -40,7 +40,7 @@ public:
         auto key = ends_of(all);
         auto const said = said_.find(key);
         if (said != said_.end()) return said->second;
-        stopwatch const asking;
+        work_watch const asking;
         auto const data = problem.measured(all, limit_);
         bool const refuted = !data.known.empty() && !lp_contractor()(data.known, all);
         heard_ += asking.spent();
@@ -54,8 +54,8 @@ private:
     work_limit limit_;
     std::vector<bool> unmeasured_;
     std::map<std::vector<double>, bool> said_;
-    stopwatch clock_;
-    double heard_ = 0; ///< [time]
+    work_watch clock_;
+    double heard_ = 0; ///< of the work since
 };
 
 } // namespace sivid::decision_detail

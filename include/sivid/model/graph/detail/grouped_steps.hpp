@@ -3,6 +3,7 @@
 #define SIVID_MODEL_GRAPH_DETAIL_GROUPED_STEPS_HPP
 
 #include <sivid/model/graph/program.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <algorithm>
 #include <array>
@@ -53,6 +54,7 @@ public:
     }
 
     void run(std::vector<double>& memory) const {
+        work_clock::count(steps_.size(), 0.4);
         auto* const m = memory.data();
         auto const* s = steps_.data();
         for (auto const count : groups_) {

@@ -3,6 +3,7 @@
 #define SIVID_MODEL_SERIES_DETAIL_SERIES_STORAGE_HPP
 
 #include <sivid/model/graph/arithmetic.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -33,6 +34,16 @@ struct storage_of {
         return Rows(series, orders);
     }
 };
+
+/// Of a product, for the `work_clock`.
+template <class T>
+[[nodiscard]] double work_of(T const& value) {
+    if constexpr (requires { value.shape().product_work; }) {
+        return value.shape().product_work;
+    } else {
+        return work_clock::interval * (arithmetic_of<T>::lanes > 1 ? 2 : 1);
+    }
+}
 } // namespace model_detail
 
 /// See `model_detail::storage_of`.

@@ -29,6 +29,7 @@ struct model_shape {
     std::size_t lines;        ///< cache lines that they take
     std::size_t const* first; ///< first[k] .. first[k + 1]: the monomials of degree k
     double longest_sum;       ///< most products in one coefficient
+    double product_work;      ///< of a product, for the `work_clock`
     /// Makes a computed sum of at most `terms` + a few dozen non-negative numbers an upper bound.
     double up;
     product_detail::product_function<C> multiply;
@@ -75,6 +76,19 @@ private:
     static model_shape make(std::size_t variables, std::size_t degree);
 };
 
+namespace product_detail {
+
+/// Of a product of Taylor models for the `work_clock`: its pairs of coefficients, and what it takes
+/// beside.
+[[nodiscard]] inline double work_of_product(std::size_t variables, std::size_t degree, bool lanes) {
+    double pairs = 1;
+    for (std::size_t k = 1; k <= degree; ++k)
+        pairs *= static_cast<double>(2 * variables + k) / static_cast<double>(k);
+    return 4 + pairs / (lanes ? 1.2 : 8);
+}
+
+} // namespace product_detail
+
 template <class C>
 model_shape<C> model_shape<C>::make(std::size_t variables, std::size_t degree) {
     auto const& s = monomial_space::of(variables, degree);
@@ -92,6 +106,7 @@ model_shape<C> model_shape<C>::make(std::size_t variables, std::size_t degree) {
             ((padded + degree + 3) * sizeof(C) + 63) / 64,
             s.firsts(),
             static_cast<double>(s.longest_sum()),
+            product_detail::work_of_product(variables, degree, !single),
             1 + (4 * count + 64) * std::numeric_limits<double>::epsilon(),
             product_detail::product_for<C>(variables, degree),
             product_detail::norms_for<C>(variables, degree),

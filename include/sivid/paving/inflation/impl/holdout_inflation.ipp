@@ -298,7 +298,7 @@ started_near(identification_problem posed, std::size_t fitted,
     search.seconds = seconds;
     search.boxes = options.boxes;
     search.memory = options.memory;
-    search.keep_going = [&options] { return !options.test.cancelled(); };
+    search.keep_going = options.test.keep_going;
     auto const paving = invert(test, start, search).paving;
     return paving.has_outer() ? intersect(paving.outer_hull(), start) : start;
 }
@@ -354,14 +354,12 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
         throw std::invalid_argument("holdout_inflation: the problems have other parameters");
     }
     stopwatch const clock;
-    auto const in_time = [&] {
-        return clock.spent() < options.seconds && !options.test.cancelled();
-    };
+    work_limit const limit(options.seconds, options.test.keep_going);
     auto timely = options;
-    timely.test = limited(options.test, in_time);
+    timely.test = limited(options.test, limit);
     holdout_bound result;
     if (fitted.witness) {
-        auto const found = paving_detail::bound_at_witness(holdout, *fitted.witness, options);
+        auto const found = paving_detail::bound_at_witness(holdout, *fitted.witness, timely);
         result.at_witness = found.value;
         result.boxes += found.boxes;
         result.integrations += found.integrations;
@@ -376,19 +374,18 @@ SIVID_DECL holdout_bound holdout_inflation(identification_problem const& fit,
     auto const start = paving_detail::contracted_by_fit(
         posed, fit.experiments.size(), fitted.value.upper(),
         map ? map->forward(whole, fitted.products) : whole, timely, 0.25 * options.seconds);
-    auto const go_on = [&] { return in_time() && (!options.keep_going || options.keep_going()); };
+    auto const go_on = [&] { return limit() && (!options.keep_going || options.keep_going()); };
     // Of fewer starts enclosures are narrower; what holds from some start holds.
     bool const some_starts = paving_detail::may_start_near(holdout, likely_starts);
     double const good = 1.2 * std::max(result.at_witness.lower(), fitted.value.upper());
     for (double const share : {0.3, 1.0}) {
         bool const last = share == 1;
         if (!last && !some_starts) continue;
-        double const end =
-            last ? options.seconds : clock.spent() + 0.6 * (options.seconds - clock.spent());
+        work_limit const own((last ? 1 : 0.6) * limit.seconds(), limit);
         paving_detail::holdout_range search(
             paving_detail::started_near(posed, fit.experiments.size(), likely_starts, share),
             fit.experiments.size(), fitted.value.upper(), start, good, last, timely);
-        search.narrow(options, [&] { return clock.spent() < end && go_on(); });
+        search.narrow(options, [&] { return own() && go_on(); });
         if (!paving_detail::take(result, search)) break;
         if (result.over_fits.upper() <= good || !go_on()) break;
     }

@@ -135,15 +135,14 @@ public:
     std::size_t operator()(std::size_t goal, Promising&& promising) {
         auto& policy = search_.policy();
         policy.goal = goal;
-        stopwatch const clock;
+        work_limit const limit(options_.seconds, options_.keep_going);
         std::function<bool()> const go_on = [&] {
-            return !policy.cancelled() &&
-                   !used_up(options_, clock.spent(), boxes(), search_.bytes());
+            return !policy.cancelled() && !used_up(options_, limit, boxes(), search_.bytes());
         };
         while (auto const* next = search_.next()) {
             if (bound() >= policy.goal) break;
             if (!go_on()) {
-                auto const over = used_up(options_, clock.spent(), boxes(), search_.bytes());
+                auto const over = used_up(options_, limit, boxes(), search_.bytes());
                 reason_ = over.value_or(stop_reason::cancelled);
                 break;
             }

@@ -6,6 +6,7 @@
 #include <sivid/paving/relation/detail/relation_row.hpp>
 #include <sivid/paving/relation/relation_finding.hpp>
 #include <sivid/paving/relation/state_samples.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -141,6 +142,7 @@ private:
         for (std::size_t p = 0; p < parts.size(); ++p) {
             if (parts[p].q != q) continue;
             used = true;
+            work_clock::count(12 * phi.size(), work_clock::interval);
             auto const weight = [&](std::size_t k) {
                 return traits::mul(traits::point(phi[k]),
                                    traits::point(functions_->factor(j, p, a + k)));

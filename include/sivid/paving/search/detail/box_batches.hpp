@@ -9,6 +9,7 @@
 #include <sivid/paving/search/frontier.hpp>
 #include <sivid/paving/set_test.hpp>
 #include <sivid/paving/subpaving.hpp>
+#include <sivid/work_clock.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -190,7 +191,9 @@ private:
         std::erase_if(next, [](item const* i) { return i->load.judged != nullptr; });
         judge(next);
     }
+    /// The work counts when their turn comes: see `paving_search`.
     void judge(std::vector<item*> const& items) {
+        uncounted const here;
         remember(items);
         std::vector<posed_question<knowledge>> questions;
         for (auto const* i : items) {
@@ -203,8 +206,10 @@ private:
             }
         } else {
             in_parallel(items.size(), [&](std::size_t k) {
-                items[k]->load.judged = std::make_shared<answer const>(
-                    test_->judge(*questions[k].set, questions[k].known));
+                work_watch const took;
+                auto says = test_->judge(*questions[k].set, questions[k].known);
+                says.work = took.spent();
+                items[k]->load.judged = std::make_shared<answer const>(std::move(says));
             });
         }
     }

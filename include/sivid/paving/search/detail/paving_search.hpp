@@ -48,6 +48,7 @@ public:
           prior_(prior),
           paving_(prior),
           waiting_(options.order),
+          limit_(left_of(options), options.keep_going),
           batches_(test, waiting_, options.workers),
           splits_{.whole = prior},
           rest_{.last = prior},
@@ -82,8 +83,7 @@ public:
             (options_.progress &&
              !options_.progress({seconds(), tested_, waiting_.size(), inner, outer})) ||
             (options_.keep_going && !options_.keep_going());
-        double const now = seconds();
-        auto stop = used_up(options_, now, tested_, bytes());
+        auto stop = used_up(options_, limit_, tested_, bytes());
         if (!stop && cancelled) stop = stop_reason::cancelled;
         if (!stop && cut) stop = stop_reason::time_budget;
         if (options_.checkpoint && (stop || checkpoint_due())) write_checkpoint();
@@ -94,7 +94,7 @@ public:
         }
         if (!stop) return false;
         reason_ = *stop;
-        stopped_at_ = now;
+        stopped_at_ = seconds();
         return true;
     }
 
@@ -102,6 +102,7 @@ public:
     /// was interrupted meanwhile settles nothing: then all is as it was before the step.
     void step() {
         auto const before = waiting_.now();
+        work_watch const took;
         if constexpr (in_batches) {
             auto next = batches_.take();
             if (cut_short()) {
@@ -110,6 +111,7 @@ public:
                 learn(before, std::move(next));
             } else {
                 auto const judged = std::move(next.load.judged);
+                work_clock::advance(judged->work);
                 auto known = judged->knowledge ? std::move(next.load.known) : nullptr;
                 ++tested_;
                 settle(std::move(next), *judged, std::move(known));
@@ -125,6 +127,7 @@ public:
             ++tested_;
             settle(std::move(next), found, hand_on(found.knowledge, known));
         }
+        if (!cut_short()) worked_ += took.spent();
         if (waiting_.empty()) reopen();
     }
 
@@ -133,7 +136,13 @@ public:
         while (!waiting_.empty()) paving_.add(waiting_.pop().set, box_verdict::pending);
         if (outside_kept_ && !options_.keep_outside) paving_ = without_outside(paving_);
         auto proof = log_ ? log_->proof_from(prior_) : exclusion_proof{};
-        return {std::move(paving_), reason_, tested_, cost_, stopped_at_.value_or(seconds()),
+        return {std::move(paving_),
+                reason_,
+                tested_,
+                cost_,
+                stopped_at_.value_or(seconds()),
+                (options_.resume ? options_.resume->work : 0) + limit_.spent(),
+                limit_.late(),
                 std::move(proof)};
     }
 
@@ -165,6 +174,7 @@ public:
         s.rested = rest_.rested;
         s.next_look = rest_.next_look;
         s.seconds = seconds();
+        s.work = worked_;
         s.outside_kept = outside_kept_;
         if (log_) s.proof = log_->proof_from(prior_);
         return s;
@@ -193,6 +203,7 @@ private:
             splits_ = {s.whole, s.measured_at};
             rest_ = {s.last_hull, s.rested, s.next_look};
             earlier_ = s.seconds;
+            worked_ = s.work;
             written_at_ = earlier_;
         } else {
             throw std::invalid_argument("invert: this kind of test cannot be resumed");
@@ -200,6 +211,10 @@ private:
     }
 
     [[nodiscard]] double seconds() const { return earlier_ + clock_.spent(); }
+    /// What earlier runs left of the budget.
+    [[nodiscard]] static double left_of(inversion_options const& options) {
+        return options.seconds - (options.resume ? options.resume->work : 0);
+    }
     [[nodiscard]] bool checkpoint_due() const {
         double const since = seconds() - written_at_;
         return since >= options_.checkpoint_seconds && since >= 10 * writing_;
@@ -344,6 +359,7 @@ private:
         while (options_.order == search_order::largest_first &&
                2 * sets[0].size() <= test_->at_once() && halve(sets[0])) {
         }
+        for (auto const& i : taken) work_clock::advance(i.load.judged ? i.load.judged->work : 0);
         auto found = batches_.learn(sets);
         if (cut_short()) {
             waiting_.back_to(before, std::move(taken), moved);
@@ -372,6 +388,7 @@ private:
     /// Bytes of knowledge; outlives what refers to it.
     std::shared_ptr<std::size_t> held_ = std::make_shared<std::size_t>(0);
     frontier waiting_;
+    work_limit limit_;
     paving_detail::box_batches<Test> batches_;
     stop_reason reason_ = stop_reason::decided;
     std::size_t tested_ = 0;
@@ -384,6 +401,7 @@ private:
     std::optional<double> stopped_at_; ///< when a budget, or what was reached, ended the search
     stopwatch clock_;
     double earlier_ = 0;    ///< seconds of the runs before
+    double worked_ = 0;     ///< of the budget, at the end of the last step, with the runs before
     double written_at_ = 0; ///< of the last checkpoint, and what it took
     double writing_ = 0;
 };

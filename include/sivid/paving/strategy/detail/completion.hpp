@@ -25,7 +25,7 @@
 namespace sivid::paving_detail {
 
 [[nodiscard]] inline search_effort effort_of(inversion const& found, inversion_options const& how) {
-    search_effort result{found.seconds, std::min(how.seconds, 1e300), found.tested, how.boxes, {}};
+    search_effort result{found.work, std::min(how.seconds, 1e300), found.tested, how.boxes, {}};
     result.sufficient_ratio = how.sufficient_ratio;
     result.hull_gain = how.hull_gain;
     if (how.memory < std::numeric_limits<std::size_t>::max()) result.most_bytes = how.memory;

@@ -474,8 +474,8 @@ inline check_finding late(std::string what) {
     if (stored.effort && pending) { // otherwise no budget was looked at in the end
         auto const& e = *stored.effort;
         bool const time = e.seconds > e.most_seconds, boxes = e.boxes >= e.most_boxes;
-        bool const nearly =
-            e.seconds >= 0.98 * e.most_seconds - 0.1; // an integration was cut short
+        bool const nearly = stored.by_clock || // an integration was cut short
+                            e.seconds >= 0.98 * e.most_seconds - 0.1;
         bool const enough = !e.sufficient_ratio ||
                             (*e.sufficient_ratio < 1 && inner.upper() > 0 &&
                              inner.upper() >= (1 - 1e-6) * *e.sufficient_ratio * outer.lower());
