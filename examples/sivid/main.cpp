@@ -3,14 +3,12 @@
 // sivid-model-1); nothing is compiled for it.
 #include <sivid/app/app.hpp>
 #include <sivid/app/program.hpp>
-#include <sivid/io/text/exact_decimal.hpp>
+#include <sivid/app/robot_of_text.hpp>
 #include <sivid/text/read_model.hpp>
 
-#include <cstddef>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
@@ -20,17 +18,6 @@ constexpr char const* usage =
     "text\n"
     "(docs/formats.md). Its commands:   sivid --help MODEL.toml\n"
     "Options and an example of each:    sivid COMMAND MODEL.toml --help\n";
-
-sivid::app::robot robot_from(std::string const& file) {
-    auto text = sivid::read_model(file);
-    auto const about =
-        text.about.empty() ? text.model.about.name + ", a model in " + file : text.about;
-    sivid::app::robot result{"sivid", about, std::move(text.model), std::move(text.effects), file};
-    for (std::size_t j = 0; j < text.unknown.size(); ++j)
-        result.prior.push_back({text.unknown[j], sivid::exact_decimal::of(text.prior[j].lower()),
-                                sivid::exact_decimal::of(text.prior[j].upper())});
-    return result;
-}
 
 } // namespace
 
@@ -42,7 +29,7 @@ int main(int argc, char** argv) {
     }
     std::optional<sivid::app::robot> robot;
     int const code = sivid::app::guarded("sivid", [&] {
-        robot = robot_from(argv[2]);
+        robot = sivid::app::robot_of_text("sivid", argv[2], sivid::read_model(argv[2]));
         return sivid::app::done;
     });
     if (!robot) return code;

@@ -2,8 +2,12 @@
 #ifndef SIVID_APP_APP_HPP
 #define SIVID_APP_APP_HPP
 
+#include <sivid/app/console.hpp>
 #include <sivid/app/robot.hpp>
 #include <sivid/compiled.hpp>
+
+#include <string>
+#include <vector>
 
 namespace sivid::app {
 
@@ -17,6 +21,21 @@ namespace sivid::app {
 /// program. Files are written whole or not at all.
 /// @returns  the exit code (`exit_code` in `program.hpp`); it does not throw
 [[nodiscard]] SIVID_DECL int run(robot const& r, int argc, char** argv);
+
+/// What a command within another program leaves beside its files.
+struct command_answer {
+    int code = 0;               ///< as the program's exit code
+    std::string words, notices; ///< what the program prints as its result, and to the other output
+};
+
+/// The same command within another program, an interpreter for instance, which has a terminal and
+/// ways to be interrupted of its own. One command runs at a time, and has std::cout and std::cerr
+/// for its own meanwhile; a second one waits for it.
+/// @param words  of the command line, without the program's name
+/// @throws  what the program has one message for (`failure_of` in `program.hpp`), words that there
+///          are not as bad_request
+[[nodiscard]] SIVID_DECL command_answer run_within(host const& h, robot const& r,
+                                                   std::vector<std::string> const& words);
 
 } // namespace sivid::app
 

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,14 @@
 /// What all commands share at the terminal: progress, Ctrl-C, and who computed when.
 namespace sivid::app {
 
+/// What a command has in place of a terminal where another program runs it (`run_within`).
+struct host {
+    std::function<void(std::string const&)> progress; ///< a line on what goes on; may be empty
+    std::function<bool()> interrupted; ///< whether the result so far is asked for; of any thread
+};
+
 namespace detail {
+inline host const* host_of_command = nullptr; ///< nothing: a program of its own
 inline volatile std::sig_atomic_t interruption = 0;
 extern "C" inline void sivid_app_interrupt(int) {
     interruption = 1;
@@ -27,39 +35,46 @@ extern "C" inline void sivid_app_interrupt(int) {
 extern "C" inline void sivid_app_interrupt_of_job(int) { interruption = 1; }
 } // namespace detail
 
-/// From now on the first Ctrl-C asks for the result so far, the second one ends the program.
+/// From now on the first Ctrl-C asks for the result so far, the second one ends the program. Within
+/// another program that one looks after Ctrl-C.
 inline void watch_interrupts() {
+    if (detail::host_of_command != nullptr) return;
     detail::interruption = 0;
     std::signal(SIGINT, detail::sivid_app_interrupt);
 }
-inline bool interrupted() { return detail::interruption != 0; }
+inline bool interrupted() {
+    if (detail::host_of_command != nullptr) return detail::host_of_command->interrupted();
+    return detail::interruption != 0;
+}
 /// What work asks whether to go on.
 inline bool wanted() { return !interrupted(); }
 
-/// Progress on stderr: one line that is rewritten on a terminal, else a new one each second.
+/// Progress on stderr: one line that is rewritten on a terminal, else a new one each second. Within
+/// another program that one gets the lines.
 class progress_line {
 public:
     explicit progress_line(bool quiet)
-        : quiet_{quiet}, terminal_{::isatty(STDERR_FILENO) != 0}, begin_{clock::now()} {}
+        : host_{detail::host_of_command},
+          quiet_{quiet || (host_ != nullptr && !host_->progress)},
+          terminal_{host_ == nullptr && ::isatty(STDERR_FILENO) != 0},
+          begin_{clock::now()} {}
 
     /// A line that stays.
     void note(std::string const& text) {
         if (quiet_) return;
         finish();
-        std::fprintf(stderr, "%7.1f s  %s\n", elapsed(), text.c_str());
+        print(text, "", "\n");
     }
     /// What goes on now; shown when the last was some time ago.
     void show(std::string const& text) {
         auto const now = clock::now();
-        double const pause = terminal_ ? 0.1 : 1.0;
+        double const pause = terminal_ || host_ != nullptr ? 0.1 : 1.0;
         if (quiet_ || (shown_ && std::chrono::duration<double>(now - last_).count() < pause)) {
             return;
         }
         last_ = now;
         shown_ = true;
-        std::fprintf(stderr, "%s%7.1f s  %s%s", terminal_ ? "\r\x1b[K" : "", elapsed(),
-                     text.c_str(), terminal_ ? "" : "\n");
-        std::fflush(stderr);
+        print(text, terminal_ ? "\r\x1b[K" : "", terminal_ ? "" : "\n");
     }
     void finish() {
         if (shown_ && terminal_) std::fputc('\n', stderr);
@@ -70,7 +85,16 @@ public:
     }
 
 private:
+    void print(std::string const& text, char const* before, char const* behind) const {
+        char time[32];
+        std::snprintf(time, sizeof time, "%7.1f s  ", elapsed());
+        if (host_ != nullptr) return host_->progress(time + text);
+        std::fprintf(stderr, "%s%s%s%s", before, time, text.c_str(), behind);
+        std::fflush(stderr);
+    }
+
     using clock = std::chrono::steady_clock;
+    host const* host_;
     bool quiet_, terminal_, shown_ = false;
     clock::time_point begin_, last_;
 };

@@ -54,17 +54,33 @@ inline void require_printed() {
                            "space");
 }
 
-/// Runs a program and turns what it throws into one message and an exit code: bad input, requests
-/// that cannot be met (std::invalid_argument), more than the memory holds and files that cannot be
-/// written into 2, all else into 70.
+/// What went wrong, in words for people, and what a program ends with then.
+struct failure {
+    int code = internal_error;
+    std::string words;
+};
+/// Bad input, requests that cannot be met (std::invalid_argument), more than the memory holds and
+/// files that cannot be written are bad_input, all else is an internal error.
+inline failure failure_of(std::exception const& e) {
+    if (auto const* const f = dynamic_cast<std::filesystem::filesystem_error const*>(&e))
+        return {bad_input, printable_path(f->path1().string()) + ": " + f->code().message() +
+                               "; check the path and its permissions"};
+    if (dynamic_cast<std::bad_alloc const*>(&e) != nullptr)
+        return {bad_input, "the memory does not suffice; ask for less: fewer samples, a coarser "
+                           "accuracy, a shorter duration"};
+    // Whatever a message quotes, it must not steer the terminal, nor fill it.
+    auto const text = printable_text(e.what(), 4000, true);
+    bool const refused = dynamic_cast<input_error const*>(&e) != nullptr ||
+                         dynamic_cast<output_error const*>(&e) != nullptr ||
+                         dynamic_cast<std::invalid_argument const*>(&e) != nullptr ||
+                         // a model or motion that is not defined there
+                         dynamic_cast<std::domain_error const*>(&e) != nullptr;
+    return refused ? failure{bad_input, text} : failure{internal_error, "internal error: " + text};
+}
+
+/// Runs a program and turns what it throws into one message and an exit code.
 template <class Program>
 int guarded(std::string const& name, Program const& program) {
-    // Whatever a message quotes, it must not steer the terminal, nor fill it.
-    auto const text = [](std::exception const& e) { return printable_text(e.what(), 4000, true); };
-    auto const refuse = [&](std::exception const& e) {
-        std::cerr << name << ": " << text(e) << "\n";
-        return static_cast<int>(bad_input);
-    };
 #ifdef SIGXFSZ
     std::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit is an error of writing, with a message
 #endif
@@ -72,26 +88,10 @@ int guarded(std::string const& name, Program const& program) {
         int const code = program();
         require_printed();
         return code;
-    } catch (input_error const& e) {
-        return refuse(e);
-    } catch (output_error const& e) {
-        return refuse(e);
-    } catch (std::invalid_argument const& e) {
-        return refuse(e);
-    } catch (std::domain_error const& e) { // a model or motion that is not defined there
-        return refuse(e);
-    } catch (std::filesystem::filesystem_error const& e) {
-        std::cerr << name << ": " << printable_path(e.path1().string()) << ": "
-                  << e.code().message() << "; check the path and its permissions\n";
-        return bad_input;
-    } catch (std::bad_alloc const&) {
-        std::cerr << name
-                  << ": the memory does not suffice; ask for less: fewer samples, a coarser "
-                     "accuracy, a shorter duration\n";
-        return bad_input;
     } catch (std::exception const& e) {
-        std::cerr << name << ": internal error: " << text(e) << "\n";
-        return internal_error;
+        auto const failed = failure_of(e);
+        std::cerr << name << ": " << failed.words << "\n";
+        return failed.code;
     }
 }
 

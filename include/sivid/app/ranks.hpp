@@ -25,6 +25,8 @@ namespace sivid::app {
 /// One rank unless mpirun has started more.
 class ranks {
 public:
+    ranks() = default; ///< one, whoever has started it
+
     /// @throws std::invalid_argument  for a program without MPI that is started as one of several
     ranks(int& argc, char**& argv) {
 #ifdef SIVID_HAS_MPI

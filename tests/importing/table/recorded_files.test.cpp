@@ -86,3 +86,21 @@ TEST_CASE("MATLAB files go through the program's function, or are refused with a
     CHECK(r.data.scenarios.at(0).duration == 1);
     CHECK(r.data.scenarios.at(0).stated.at(2).value == dec("4"));
 }
+
+TEST_CASE("columns in memory, by a mapping that is a text") {
+    import_tools tools;
+    tools.read_matlab = [](fs::path const& file) {
+        CHECK(file == "frame");
+        return matlab_file{"frame",
+                           {{"y (m)", "double 3", false, 3, 1, std::vector<double>{1, 2, 4}},
+                            {"(:,1)", "double 3", false, 3, 1, std::vector<double>{0, 1, 2}}}};
+    };
+    std::string const text = R"json({ "format": "sivid-mapping-1", "id": "a", "model": "m",
+      "parameters": { "k": { "prior": [0, 1] } }, "max_outlier_fraction": 0,
+      "scenarios": [ { "name": "one", "file": "frame", "source": { "kind": "matlab" },
+                       "time": { "column": "(:,1)", "unit": "s", "offset": 0 },
+                       "channels": { "h": { "column": "y (m)", "error": 0.1 } } } ] })json";
+    auto const r = import_dataset(import_mapping_from_text(text, "Data"), tools);
+    CHECK(r.data.scenarios.at(0).stated.at(2).value == dec("4"));
+    CHECK_THROWS_WITH(import_mapping_from_text("{}", "Data"), ContainsSubstring("Data: "));
+}

@@ -19,7 +19,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -159,9 +161,16 @@ public:
         try {
             app_.parse(argc, argv);
         } catch (CLI::ParseError const& e) {
-            int const code = app_.exit(e) == 0 ? done : bad_input;
-            if (code != done) std::cerr << guess(argc, argv);
-            return code;
+            if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+                app_.exit(e); // --help
+                return done;
+            }
+            auto const near = guess(argc, argv);
+            if (host_of_command != nullptr)
+                throw bad_request(near.empty() ? e.what() : e.what() + ("; " + near));
+            app_.exit(e);
+            if (!near.empty()) std::cerr << near << "\n";
+            return bad_input;
         }
         auto const command = app_.get_subcommands().front()->get_name();
         bool const shares = command == "identify" || command == "diagnose" || command == "fleet";
@@ -179,7 +188,7 @@ private:
         std::string const first = argc > 1 ? argv[1] : "";
         if (std::find(commands.begin(), commands.end(), first) == commands.end()) {
             auto const near = nearest_name(first, commands);
-            return near.empty() ? "" : "Did you mean the command " + near + "?\n";
+            return near.empty() ? "" : "Did you mean the command " + near + "?";
         }
         std::vector<std::string> options;
         for (auto const* o : app_.get_subcommand(first)->get_options())
@@ -190,7 +199,7 @@ private:
             bool const known = std::find(options.begin(), options.end(), word) != options.end();
             if (!word.starts_with("--") || known) continue;
             auto const near = nearest_name(word, options);
-            if (!near.empty()) return "Did you mean " + near + "?\n";
+            if (!near.empty()) return "Did you mean " + near + "?";
         }
         return {};
     }
@@ -767,13 +776,65 @@ private:
     std::function<int()> action_;
 };
 
-} // namespace detail
-
-SIVID_DECL int run(robot const& r, int argc, char** argv) {
+/// The command as it was given, the file of a model included.
+inline std::string line_of(robot const& r, int argc, char** argv) {
     std::vector<char*> told(argv, argv + argc);
     auto file = r.file;
     if (!file.empty() && argc > 1) told.insert(told.begin() + 2, file.data());
-    auto const line = command_line(r.name, static_cast<int>(told.size()), told.data());
+    return command_line(r.name, static_cast<int>(told.size()), told.data());
+}
+
+/// For as long as it lives, keeps what a stream is given.
+class kept_stream {
+public:
+    explicit kept_stream(std::ostream& s) : stream_{s}, own_{s.rdbuf(kept_.rdbuf())} {}
+    ~kept_stream() { stream_.rdbuf(own_); }
+    kept_stream(kept_stream const&) = delete;
+    kept_stream& operator=(kept_stream const&) = delete;
+    [[nodiscard]] std::string text() const { return kept_.str(); }
+
+private:
+    std::ostringstream kept_;
+    std::ostream& stream_;
+    std::streambuf* own_;
+};
+
+/// For as long as it lives, a command has a host; one at a time.
+class hosting {
+public:
+    explicit hosting(host const& h) : alone_{one_at_a_time()} { host_of_command = &h; }
+    ~hosting() { host_of_command = nullptr; }
+    hosting(hosting const&) = delete;
+    hosting& operator=(hosting const&) = delete;
+
+private:
+    static std::mutex& one_at_a_time() {
+        static std::mutex one;
+        return one;
+    }
+    std::lock_guard<std::mutex> alone_;
+};
+
+} // namespace detail
+
+SIVID_DECL command_answer run_within(host const& h, robot const& r,
+                                     std::vector<std::string> const& words) {
+    auto all = words;
+    all.insert(all.begin(), r.name);
+    std::vector<char*> argv;
+    for (auto& word : all) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    int const argc = static_cast<int>(all.size());
+    ranks const one{};
+    detail::hosting const hosted(h);
+    detail::kept_stream const out(std::cout), notices(std::cerr);
+    detail::program program(r, detail::line_of(r, argc, argv.data()), one);
+    int const code = program(argc, argv.data());
+    return {code, out.text(), notices.text()};
+}
+
+SIVID_DECL int run(robot const& r, int argc, char** argv) {
+    auto const line = detail::line_of(r, argc, argv);
     return guarded_on_ranks(r.name, argc, argv, [&](ranks const& all) {
         return detail::program(r, line, all)(argc, argv);
     });

@@ -20,13 +20,12 @@
 
 namespace sivid {
 
-/// Reads a file in the format sivid-mapping-1; users call read_import_mapping.
+/// Reads the format sivid-mapping-1; users call read_import_mapping or import_mapping_from_text.
 class import_mapping_reader {
 public:
     explicit import_mapping_reader(std::filesystem::path file) : file_{std::move(file)} {}
 
-    [[nodiscard]] import_mapping read() {
-        auto const root = read_json(file_);
+    [[nodiscard]] import_mapping read(json_value const& root) {
         mapping_entries::require_format(root, "sivid-mapping-1");
         root.allow_only({"format", "id", "model", "parameters", "fixed", "max_outlier_fraction",
                          "effects", "defaults", "scenarios"});
@@ -202,7 +201,13 @@ private:
 /// Reads a mapping.
 /// @throws input_error  for the first defect, with file, pointer and remedy
 [[nodiscard]] inline import_mapping read_import_mapping(std::filesystem::path const& file) {
-    return import_mapping_reader{file}.read();
+    return import_mapping_reader{file}.read(read_json(file));
+}
+/// The same from a text.
+/// @param name  of the text, for messages; files are looked for beside it
+[[nodiscard]] inline import_mapping import_mapping_from_text(std::string const& text,
+                                                             std::string const& name) {
+    return import_mapping_reader{name}.read(parse_json(name, text));
 }
 
 } // namespace sivid

@@ -113,7 +113,10 @@ struct matlab_vector {
     if (c.number > 0)
         fail(": a variable has no number", "name it, such as \"t\", \"log.t\" or \"X(:,3)\"");
     std::string_view name = c.heading, index;
-    if (auto const open = name.find('('); open != std::string_view::npos && name.back() == ')') {
+    bool const whole = std::any_of(file.variables.begin(), file.variables.end(),
+                                   [&](auto const& v) { return v.name == name; });
+    if (auto const open = name.find('(');
+        !whole && open != std::string_view::npos && name.back() == ')') {
         index = name.substr(open + 1, name.size() - open - 2);
         name = name.substr(0, open);
     }
