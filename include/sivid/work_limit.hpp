@@ -32,9 +32,10 @@ private:
 /// any thread.
 ///   work_limit const limit(options.seconds, options.keep_going);
 ///   options.test.keep_going = limit;
-/// A limit within another, which has it as its `keep_going`, counts alone. One that has none is
-/// ended by the time as well, at its seconds by the clock: on a machine less than half as fast as
-/// the one of the prices, or one that has other work, `late()` says so.
+/// The time is a last guard. It ends a limit that stands alone at its seconds: on a machine less
+/// than half as fast as the one of the prices, or one that has other work, `late()` says so. A
+/// limit within another, which has it as its `keep_going`, counts; the time ends it where nothing
+/// is counted (a test of one's own, say), at ten times its seconds and one more.
 class work_limit {
     using clock = std::chrono::steady_clock;
 
@@ -88,7 +89,6 @@ private:
         return !shared_->said && shared_->keep_going && !shared_->keep_going();
     }
     [[nodiscard]] bool in_time() const {
-        if (shared_->outer != nullptr && !shared_->said) return true; // it is asked
         if (time() < shared_->latest) return true;
         shared_->late = true;
         return false;
@@ -97,7 +97,9 @@ private:
         constexpr double longest = 1e9; // 30 years
         double const more = seconds > 0 ? std::min(seconds, longest) : 0.0;
         shared_->end = std::max<double>(shared_->end, work_clock::now() + more);
-        shared_->latest = std::max<double>(shared_->latest, time() + more);
+        bool const within = shared_->outer != nullptr && !shared_->said;
+        shared_->latest =
+            std::max<double>(shared_->latest, time() + (within ? 10 * more + 1 : more));
     }
     [[nodiscard]] static double time() {
         return std::chrono::duration<double>(clock::now().time_since_epoch()).count();

@@ -394,9 +394,9 @@ TEST_CASE("checkpoints come at the interval and hold a search that can go on") {
     saving.checkpoint_seconds = 1e6;
     check_same(invert(test, square, saving), whole);
     CHECK(saved.empty());
-    // The time of earlier runs counts.
+    // What earlier runs spent counts.
     search_state late = paving_search(test, square, o).state();
-    late.seconds = 100;
+    late.work = 100;
     o.resume = std::make_shared<search_state const>(late);
     CHECK(invert(test, square, o).reason == stop_reason::time_budget);
 }
