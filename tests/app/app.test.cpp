@@ -14,6 +14,7 @@
 #include <vector>
 
 using namespace app_test;
+using namespace sivid::literals;
 using support::text_of;
 
 namespace {
@@ -248,6 +249,16 @@ TEST_CASE("simulate, rank and describe work for any model") {
     CHECK_THAT(simulated({"--with", "draught", "--set", "draught.a=1"}).out,
                ContainsSubstring("T = 25.87"));
     CHECK_THAT(simulated({"--with", "draught"}).out, ContainsSubstring("T = 24.6"));
+    auto late = cup();
+    late.effects.push_back(sivid::effects::sensor_latency("late", {"T"}, {0_dec, 1_dec}));
+    auto const plain =
+        run({"simulate", "--scenario", "tea", "--with", "late=1", "--out", s.at("late")}, late);
+    CHECK_THAT(plain.out, ContainsSubstring("T = 37.9")); // of 1 s before: 4 + 56/sqrt(e)
+    CHECK_THAT(run({"simulate", "--scenario", "tea", "--with", "late=1", "--validated", "--out",
+                    s.at("late")},
+                   late)
+                   .err,
+               ContainsSubstring("without it the model is simulated"));
     CHECK_THAT(simulated({"--with", "draugth"}).err, ContainsSubstring("did you mean 'draught'?"));
     CHECK_THAT(simulated({"--with", "draught@tea"}).err, ContainsSubstring("from its begin to"));
     CHECK(run({"rank", s.data(), "--out", s.at("ranked"), "--quiet"}).code != 2);
