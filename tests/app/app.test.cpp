@@ -9,8 +9,12 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace app_test;
+using namespace sivid::literals;
 using support::text_of;
 
 namespace {
@@ -72,7 +76,7 @@ TEST_CASE("a misspelt command, option or name is answered by the nearest one") {
     refused({"rank", "--scenario", "tea", "--out", out}, "--measure");
     refused({"fleet", "identify", s.data(), "--out", out, "--task", "3/2"}, "K from 1 to N");
     refused({"check", s.at("nowhere")}, "nowhere");
-    refused({"report", s.data()}, "result.json");
+    refused({"report", s.data()}, "*.page.json");
 }
 
 TEST_CASE("from a scenario to a result, checked, shown anew and used") {
@@ -98,33 +102,81 @@ TEST_CASE("from a scenario to a result, checked, shown anew and used") {
         CAPTURE(again.err);
         CHECK(again.code == 0);
         CHECK(files_in(s.at("page")) == std::set<std::string>{"report.html"});
-        auto const text = text_of(s.at("page") + "/report.html");
-        CHECK_THAT(text, ContainsSubstring("made anew from a stored result"));
+        auto const page = text_of(out + "/report.html");
+        CHECK_THAT(page, ContainsSubstring("</svg>"));
+        CHECK(text_of(s.at("page") + "/report.html") == page);
         fs::remove(fs::path{out} / "report.html");
         CHECK(run({"report", out}).code == 0);
-        CHECK(fs::exists(fs::path{out} / "report.html"));
-        // Other data than those of the result are refused.
-        s.folder().write("data/tea.measurements.csv",
-                         text_of(s.data() + "/tea.measurements.csv") + "\n");
-        CHECK(run({"report", out}).code == 2);
+        CHECK(text_of(out + "/report.html") == page);
     }
     SECTION("a file that is cut off is named") {
         auto const whole = text_of(fs::path{out} / "result.json");
         s.folder().write("out/result.json", whole.substr(0, whole.size() / 2));
         for (std::vector<std::string> const& words : std::vector<std::vector<std::string>>{
-                 {"check", out},
-                 {"report", out},
-                 {"verify", out, "--scenario", "tea", "--require", "T > 0"}}) {
+                 {"check", out}, {"verify", out, "--scenario", "tea", "--require", "T > 0"}}) {
             auto const cut = run(words);
             CHECK(cut.code == 2);
             CHECK_THAT(cut.err, ContainsSubstring("result.json"));
         }
+        auto data = text_of(fs::path{out} / "report.page.json");
+        s.folder().write("out/report.page.json", data.substr(0, data.size() / 2));
+        CHECK(run({"report", out}).code == 2);
+        data.insert(data.find("\"shows\": [") + 10, " ");
+        s.folder().write("out/report.page.json", data);
+        CHECK_THAT(run({"report", out}).err, ContainsSubstring("was changed"));
+    }
+    auto const asked = [&](std::vector<std::string> more) {
+        more.insert(more.begin() + 1, {out, "--scenario", "tea", "--quiet"});
+        return run(more).code;
+    };
+    SECTION("the pages of decisions are made anew, byte for byte") {
+        auto const on = [&](std::string const& name, std::vector<std::string> more) {
+            more.insert(more.end(), {"--out", s.at(name)});
+            CHECK(asked(more) != 2);
+        };
+        on("prediction", {"predict"});
+        on("verification", {"verify", "--require", "T at end in [0, 60]"});
+        on("open", {"verify", "--require", "T at end in [0, 30]", "--budget", "1"});
+        on("refuted", {"verify", "--require", "T at end > 60"});
+        on("control",
+           {"control", "--law", "h = K", "--gain", "K=0:9", "--require", "T at end in [0, 90]"});
+        on("design",
+           {"design", "--vary", "h=0:9", "--halve", "k", "--share", "1", "--budget", "5"});
+        CHECK(run({"rank", s.data(), "--out", s.at("ranking"), "--quiet"}).code != 2);
+        CHECK(run({"rank", "--scenario", "tea", "--measure", "T=0.1", "--out", s.at("alone"),
+                   "--quiet"})
+                  .code != 2);
+        CHECK(run({"online", s.data(), "--out", s.at("online"), "--quiet"}).code != 2);
+        for (auto const& [folder, name] :
+             std::vector<std::pair<std::string, std::string>>{{"prediction", "prediction"},
+                                                              {"verification", "verification"},
+                                                              {"open", "verification"},
+                                                              {"refuted", "verification"},
+                                                              {"control", "control"},
+                                                              {"design", "design"},
+                                                              {"ranking", "ranking"},
+                                                              {"alone", "ranking"},
+                                                              {"online", "report"}}) {
+            CAPTURE(folder);
+            auto const again = run({"report", s.at(folder), "--out", s.at(folder + "-page")});
+            CAPTURE(again.err);
+            CHECK(again.code == 0);
+            auto const page = text_of(s.at(folder) + "/" + name + ".html");
+            CHECK_THAT(page, ContainsSubstring("</html>"));
+            CHECK(text_of(s.at(folder + "-page") + "/" + name + ".html") == page);
+        }
+    }
+    SECTION("effects that act in a scenario join those of the result") {
+        CHECK(asked({"verify", "--require", "T at end < 23"}) == 5); // 2/k + (60 - 2/k) e^-2k
+        CHECK(asked({"verify", "--with", "draught=-2", "--require", "T at end < 23"}) == 0);
+        CHECK(asked({"predict", "--with", "draught,bias=0.5", "--out", s.at("predicted")}) == 0);
+        CHECK_THAT(text_of(s.at("predicted") + "/prediction.html"),
+                   ContainsSubstring("the effect bias=0.5 acts in this scenario"));
+        CHECK(asked({"verify", "--with", "draugth", "--require", "T > 0"}) == 2);
+        CHECK(asked({"verify", "--with", "draught=warm", "--require", "T > 0"}) == 2);
+        CHECK(asked({"verify", "--with", "draught,draught", "--require", "T > 0"}) == 2);
     }
     SECTION("the other commands take it") {
-        auto const asked = [&](std::vector<std::string> more) {
-            more.insert(more.begin() + 1, {out, "--scenario", "tea", "--quiet"});
-            return run(more).code;
-        };
         CHECK(asked({"verify", "--require", "T at end in [0, 60]"}) == 0);
         CHECK(asked({"verify", "--require", "T at end > 60"}) == 5);
         CHECK(asked({"predict", "--out", s.at("predicted")}) == 0);
@@ -168,12 +220,13 @@ TEST_CASE("a diagnosis is written with its model, checked and shown anew") {
     CAPTURE(r.err);
     CHECK(r.code == 0);
     CHECK_THAT(r.out, ContainsSubstring("gap none") && ContainsSubstring("ranges of all"));
-    CHECK(files_in(out) == std::set<std::string>{"diagnosis.json", "model", "report.html"});
+    CHECK(files_in(out) ==
+          std::set<std::string>{"diagnosis.json", "model", "report.html", "report.page.json"});
     CHECK(fs::exists(out + "/model/result.json"));
     CHECK(run({"check", out, "--quiet"}).code == 0);
     CHECK(run({"check", out + "/model", "--all", "--quiet"}).code == 0);
     CHECK(run({"report", out, "--out", s.at("page")}).code == 0);
-    CHECK_THAT(text_of(s.at("page") + "/report.html"), ContainsSubstring("</html>"));
+    CHECK(text_of(s.at("page") + "/report.html") == text_of(out + "/report.html"));
 }
 
 TEST_CASE("simulate, rank and describe work for any model") {
@@ -183,6 +236,31 @@ TEST_CASE("simulate, rank and describe work for any model") {
               .code == 0);
     CHECK(files_in(out) ==
           std::set<std::string>{"simulation.html", "tea.trajectory.csv", "tea.tube.csv"});
+    // T' = 2 + d - 0.5 T from 60 on is (2 + d)/0.5 (1 - 1/e) + 60/e at 2 s.
+    auto const simulated = [&](std::vector<std::string> const& more) {
+        std::vector<std::string> words{"simulate",    "--scenario", "tea",
+                                       "--validated", "--out",      s.at("with")};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    CHECK_THAT(simulated({}).out, ContainsSubstring("T = 24.6"));
+    CHECK_THAT(simulated({"--with", "draught=1"}).out, ContainsSubstring("T = 25.87"));
+    CHECK_THAT(simulated({"--with", "draught=1,bias=0.5"}).out, ContainsSubstring("T = 26.37"));
+    CHECK_THAT(simulated({"--with", "draught", "--set", "draught.a=1"}).out,
+               ContainsSubstring("T = 25.87"));
+    CHECK_THAT(simulated({"--with", "draught"}).out, ContainsSubstring("T = 24.6"));
+    auto late = cup();
+    late.effects.push_back(sivid::effects::sensor_latency("late", {"T"}, {0_dec, 1_dec}));
+    auto const plain =
+        run({"simulate", "--scenario", "tea", "--with", "late=1", "--out", s.at("late")}, late);
+    CHECK_THAT(plain.out, ContainsSubstring("T = 37.9")); // of 1 s before: 4 + 56/sqrt(e)
+    CHECK_THAT(run({"simulate", "--scenario", "tea", "--with", "late=1", "--validated", "--out",
+                    s.at("late")},
+                   late)
+                   .err,
+               ContainsSubstring("without it the model is simulated"));
+    CHECK_THAT(simulated({"--with", "draugth"}).err, ContainsSubstring("did you mean 'draught'?"));
+    CHECK_THAT(simulated({"--with", "draught@tea"}).err, ContainsSubstring("from its begin to"));
     CHECK(run({"rank", s.data(), "--out", s.at("ranked"), "--quiet"}).code != 2);
     auto const ranked = run(
         {"rank", "--scenario", "tea", "--measure", "T=0.1", "--out", s.at("ranked"), "--quiet"});

@@ -51,6 +51,10 @@ TEST_CASE("an error points at the character") {
 }
 
 TEST_CASE("names that are wrong are told") {
+    says("load = c*sign(w)", "load = more\nmore = less\nless = load", 7, 8,
+         "'load' is defined by itself: load -> more -> less -> load");
+    says("theta = \"[", "sin = 3\ntheta = \"[", 12, 1, "'sin' has a meaning of its own");
+    says("kt = \"", "w = 3\nkt = \"", 18, 1, "two things are called 'w'");
     says("theta' = w", "theta' = w\nw' = 0", 8, 1, "a second equation for w'");
     says("theta' = w\n", "", 11, 1, "the state 'theta' has no equation");
     says("theta' = w", "thta' = w", 7, 1, "'thta' is no state; did you mean 'theta'?");
@@ -78,6 +82,8 @@ TEST_CASE("units that do not fit are told") {
     says("T0/J", "T0*J", 31, 20, "and w' has rad/s^2");
     says("[-1, 1] A", "[-1, 1] V", 42, 10, "the prior is in V, not in A");
     says("c*sign(w)", "c*9.81 m/s", 5, 16, "units of numbers in brackets");
+    says("c*sign(w)", "c*3 [m^1000]", 5, 13, "a power is beyond 99");
+    says("\"20 A\"", "\"20 A^1000\"", 13, 9, "a power is beyond 99");
     says("c*sign(w)", "c*9.81 [m", 5, 15, "the bracket of the unit does not close");
 }
 
@@ -91,14 +97,22 @@ TEST_CASE("formulas that are wrong are told") {
     says("c*sign(w)", "c*log(-abs(w)*1 [s])", 5, 10, "log of what is not above 0");
     says("c*sign(w)", "c*sqrt(-2 - cos(t*1 [1/s])^2)", 5, 10, "sqrt of what is below 0");
     says("c*sign(w)", "c*sqrt(-2)", 5, 10, "no finite number");
-    says("c*sign(w)", "c*w'", 5, 10, "the rate w' has no place here");
+    says("c*sign(w)", "c*w'", 6, 18, "the unit on the left is N m");
+    says("u *= 1 + k", "u *= 1 + k*w'/(1 [rad/s^2])", 35, 22, "the rate w' has no place here");
     says("w' = (kt", "w' += (kt", 6, 1, "have = alone");
     says("c*sign(w)", std::string(70, '('), 5, 68, "nested too deep");
+    says("c*sign(w)", std::string(5000, '(') + "w\n" + std::string(5000, ')'), 5, 68,
+         "nested too deep");
+    says("c*sign(w)", "c*" + std::string(9000, '1'), 5, 10, "no finite number");
     says("\"w\"", "\"w\\n\"", 25, 22, "a backslash has no place");
 }
 
 TEST_CASE("numbers and effects that are wrong are told") {
     says("[0.5, 2] g", "[2, 0.5] g", 17, 16, "the lower bound is above");
+    says("\"[-1000, 1000] rad\"", "\"[1000, -1000] rad\"", 12, 10, "the lower bound is above");
+    says("\"20 A\"", "\"0 A\"", 13, 6, "the range of the state 'i' is 0 alone");
+    says("\"20 A\"", "inf", 13, 5, "a decimal number is needed");
+    says("\"20 A\"", "[-inf, nan]", 13, 6, "a decimal number is needed");
     says("\"20 A\"", "20 A", 13, 8, "saw 'A'");
     says("\"20 A\"", "\"A\"", 13, 6, "a number is needed here");
     says("value = \"10", "value = \"30", 23, 19, "the value is outside the prior");
@@ -106,6 +120,14 @@ TEST_CASE("numbers and effects that are wrong are told") {
     says("w' += T0", "w += T0", 31, 14, "the equations of an effect change rates");
     says("= \"[-0.1, 0.1] N m\"", "= \"[0.1, 0.2] N m\"", 30, 16, "does not contain the neutral");
     says("u *= 1 + k", "v *= 1 + k", 35, 11, "'v' is no input and no constant");
+    says("u *= 1 + k", "torque.T0 *= 1 + k", 35, 11, "'torque.T0' is no input");
+    says("effect.gain", "effect.u", 32, 9, "an input is called so, too");
+    says("T0/J", "T0/J + 1 [rad/s^2]", 28, 9, "changes w' where its constants are neutral");
+    says("T0/J", "T0/J*log(-1 - T0^2/c^2)", 28, 9, "log of what is not above 0 over the whole");
+    says("T0/J", "T0/(J - J)", 28, 9, "a division by 0");
+    says("kind = \"sensor_bias\"", "kind = \"sensor_latency\"", 42, 10, "is in A, not in s");
+    says("prior = \"[-1, 1] A\"", "prior = \"[-1, 1] s\"\nkind = \"sensor_latency\"", 43, 8,
+         "cannot redefine");
     says("\"sensor_bias\"", "\"sensor_bais\"", 40, 8, "did you mean 'sensor_bias'?");
     says("of = \"i\"", "of = \"j\"", 41, 6, "'j' is no output");
     says("shown(speed)", "shown(sped)", 38, 29, "did you mean 'speed'?");
@@ -128,6 +150,8 @@ TEST_CASE("files that are no text are refused") {
     refuses("# " + std::string(20'000, 'x'), "a line of more than 10000 bytes");
     refuses(texts::with(texts::motor, "20 A", std::string(9000, '[')), "a number is needed");
     refuses("a = " + std::string(9000, '['), "no TOML");
+    refuses(texts::with(texts::motor, "20 A", std::string(5'000'000, '1')), "larger than 200 kB");
+    refuses(texts::motor + "[states]\nq = 1\n", "cannot redefine existing table 'states'");
     refuses("[.]\n", "the name of a table is needed");
     refuses("[[", "the name of a table is needed");
     refuses("a = [}", "this bracket closes what is not open");
@@ -141,6 +165,42 @@ TEST_CASE("files that are no text are refused") {
     std::string windows = "\xEF\xBB\xBF"; // a byte-order mark, and CRLF
     for (char const c : texts::motor) windows += c == '\n' ? std::string("\r\n") : std::string{c};
     CHECK_FALSE(error_of(windows));
+}
+
+TEST_CASE("effects that are ready made have sizes that can be") {
+    auto const refuses = [](std::string const& kind, std::string const& what) {
+        auto const error = error_of(texts::motor + "[effect.more]\nkind = " + kind);
+        INFO(kind);
+        REQUIRE(error);
+        CHECK_THAT(std::string(error->what()), ContainsSubstring(what));
+    };
+    refuses("\"input_delay\"\nof = \"u\"\nprior = \"[-1, 1] s\"\n", "this time may be below 0");
+    refuses("\"input_backlash\"\nof = \"u\"\nprior = \"[-1, 1] V\"\n",
+            "the prior of b goes below 0");
+    refuses("\"sensor_clock_drift\"\nof = \"i\"\nprior = [-1, 1]\n", "the prior of r goes below 0");
+    refuses("\"input_lag\"\nof = \"u\"\nprior = \"[0, 1] s\"\nlimit = \"0 V\"\n", "not above 0");
+    refuses("\"sensor_rotation\"\nof = [\"i\", \"i\"]\nprior = \"[-1, 1] rad\"\n",
+            "'i' stands twice");
+}
+
+TEST_CASE("many of everything is read or refused, and in time") {
+    auto const model = [](std::size_t n, auto const& equation) {
+        std::string equations, states;
+        for (std::size_t i = 0; i < n; ++i) {
+            equations += equation(i) + "\n";
+            states += "s" + std::to_string(i) + " = 1\n";
+        }
+        return "format = \"sivid-model-1\"\nname = \"m\"\nequations = \"\"\"\n" + equations +
+               "\"\"\"\n[states]\n" + states + "[outputs]\ny = \"s0\"\n";
+    };
+    auto const s = [](std::size_t i) { return "s" + std::to_string(i); };
+    CHECK_FALSE(error_of(model(1500, [&](auto i) { return s(i) + "' = s0/(1 [s])"; })));
+    CHECK_FALSE(error_of(model(
+        150, [&](auto i) { return "2*" + s(i) + "' + " + s((i + 1) % 150) + "' = s0/(1 [s])"; })));
+    auto const error = error_of(model(300, [&](auto i) { return "2*" + s(i) + "' = s0/(1 [s])"; }));
+    REQUIRE(error);
+    CHECK(error->place().line == 4);
+    CHECK_THAT(std::string(error->what()), ContainsSubstring("more than 200 states"));
 }
 
 TEST_CASE("a text that was cut off is read or refused at a place") {

@@ -3,12 +3,12 @@
 #include "hovercraft/model.hpp"
 #include "support/catch.hpp"
 #include "text/texts.hpp"
+#include "text/values.hpp"
 
 #include <sivid/enclosure/enclose.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/model/bound_model.hpp>
-#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/text/read_model.hpp>
 
@@ -19,6 +19,8 @@
 #include <vector>
 
 using namespace sivid;
+using texts::is_near;
+using texts::values;
 
 namespace {
 
@@ -98,8 +100,6 @@ text_model read_example(std::string const& name) {
     return read_model(SIVID_SOURCE_DIR "/examples/" + name);
 }
 
-bool is_near(double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); }
-
 bool same(interval const& a, interval const& b) {
     return a.lower() == b.lower() && a.upper() == b.upper();
 }
@@ -107,24 +107,6 @@ bool same(box const& a, box const& b) {
     bool all = a.size() == b.size();
     for (std::size_t i = 0; all && i < a.size(); ++i) all = same(a[i], b[i]);
     return all;
-}
-
-/// A model's rates and channels, nearly, with inputs that are numbers.
-std::vector<double> values(recorded_model const& m, std::vector<double> const& x,
-                           std::vector<double> const& u) {
-    graph g;
-    auto wanted = m.rate;
-    wanted.insert(wanted.end(), m.observe.begin(), m.observe.end());
-    auto const all = copy_into(g, m.g, wanted, [&](node const& n, graph& to) {
-        auto const k = static_cast<std::size_t>(n.index);
-        return n.op == operation::state      ? to.constant(x[k])
-               : n.op == operation::input    ? to.constant(u[k])
-               : n.op == operation::constant ? to.constant(m.about.constants[k].nominal)
-                                             : to.constant(0.0);
-    });
-    std::vector<double> result;
-    for (auto const k : all) result.push_back(g.value(g[k]).nearest);
-    return result;
 }
 
 } // namespace
@@ -242,12 +224,12 @@ TEST_CASE("a model is read and identified in two lines") {
 TEST_CASE("a text with all that the format has is read") {
     auto const text = read_model(SIVID_SOURCE_DIR "/tests/text/everything.toml");
     CHECK(text.model.about.states.size() == 6);
-    CHECK(text.effects.size() == 7);
+    CHECK(text.effects.size() == 9);
     CHECK(text.model.channel_delays.size() == 1);
     CHECK(text.unknown == std::vector<std::string>{"J", "b"});
     auto const all = with(text.model, text.effects);
-    CHECK(all.about.states.size() == 7); // the lag's
-    CHECK(all.about.constants.size() == text.model.about.constants.size() + 8);
+    CHECK(all.about.states.size() == 9); // the lags'
+    CHECK(all.about.constants.size() == text.model.about.constants.size() + 10);
 }
 
 TEST_CASE("units of a text are converted exactly") {

@@ -106,6 +106,7 @@ struct generate_command : command {
 
 struct simulate_command : command {
     std::string scenario;
+    std::vector<std::string> effects;    ///< that act in it: wind, wind=0.2 or wind=0.1:0.3
     std::map<std::string, interval> set; ///< values or ranges, read outward
     double rate = 100;
     std::optional<double> input_rate; ///< of sampled inputs; without it the shapes are exact
@@ -121,6 +122,7 @@ struct decision_command : command {
     std::filesystem::path result, dataset;
     std::string scenario;             ///< a name or a file; data:NAME is one of the data set
     std::vector<std::string> set;     ///< Ff=0.5 or Ff=0.3:0.7
+    std::vector<std::string> effects; ///< that act in it, beside those of the result
     std::string requirement;          ///< of `verify` and `control`; limits of `design`
     std::string law;                  ///< "W = clamp(K * (2 - u), 0, 250)"; may be empty
     std::vector<std::string> gain;    ///< of the law: K=3 or K=0:50
@@ -154,10 +156,9 @@ struct rank_command : command {
 };
 [[nodiscard]] SIVID_DECL int run(robot const& r, rank_command const& c);
 
-/// `report`: the page of a stored result anew.
+/// `report`: the pages of a stored result anew, byte for byte.
 struct report_command : command {
     std::filesystem::path result;
-    std::filesystem::path dataset; ///< empty: where the result says
 };
 [[nodiscard]] SIVID_DECL int run(robot const& r, report_command const& c);
 

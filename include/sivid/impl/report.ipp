@@ -13,5 +13,6 @@
 #include <sivid/report/impl/identification_report.ipp>
 #include <sivid/report/impl/number_text.ipp>
 #include <sivid/report/impl/page.ipp>
+#include <sivid/report/impl/stored_page.ipp>
 
 #endif

@@ -161,13 +161,14 @@ public:
                 request_.inputs.push_back(exact_signal(input, s.duration));
         }
         if (!effects.empty()) add_effects(effects);
+        if (!c.effects.empty()) add_scenario_effects(chosen_effects(r.effects, data));
         close_the_loop();
         vary_inputs();
     }
 
     /// The model, with the effects that the result speaks of, under the law.
     [[nodiscard]] recorded_model const& model() const {
-        return closed_ ? closed_->model : problem_.model;
+        return closed_ ? closed_->model : scenario_model();
     }
 
     [[nodiscard]] double end() const { return request_.end; }
@@ -218,6 +219,8 @@ public:
                 made->assumptions.push_back(in_words(name, range) +
                                             " in this scenario, whatever it was in the data");
         }
+        for (auto const& e : command_.effects)
+            made->assumptions.push_back("the effect " + e + " acts in this scenario");
         if (closed_) made->assumptions.push_back("the law " + command_.law + " acts " + when());
         for (auto const& [channel, bound] : sensors_)
             made->assumptions.push_back("the law sees " + channel + " with an error of at most " +
@@ -337,6 +340,26 @@ private:
         request_.initial = joined.initial;
         request_.inputs = joined.inputs;
     }
+    /// Effects that act in the scenario, whatever the data know of them.
+    void add_scenario_effects(std::vector<effect> const& catalogue) {
+        auto further = join_effects(problem_.model, catalogue, command_.effects);
+        request_.set.insert(further.set.begin(), further.set.end()); // what is told stays
+        auto choice = problem_.choice;
+        for (auto const& [name, range] : request_.set) choice.fixed[name] = range;
+        auto const known = request_.initial.size();
+        auto const constants = constant_ranges(further.model, choice, problem_.prior);
+        request_.initial =
+            start_with_added(further.model, constants, request_.inputs, request_.initial);
+        for (auto i = known; i < request_.initial.size(); ++i)
+            if (!is_one_value(request_.initial[i]))
+                throw bad_request("--with: the state '" + further.model.about.states[i].name +
+                                  "' of an effect begins where parameters say; give them one value "
+                                  "each");
+        further_ = std::move(further.model);
+    }
+    [[nodiscard]] recorded_model const& scenario_model() const {
+        return further_ ? *further_ : problem_.model;
+    }
     void close_the_loop() {
         auto const& c = command_;
         gains_ = ranges_from(c.gain, "--gain");
@@ -347,7 +370,7 @@ private:
                     "--gain, --sensor, --sampled, --delay and --slew belong to a law: give --law");
             return;
         }
-        closed_loop loop(problem_.model);
+        closed_loop loop(scenario_model());
         for (auto const& [name, bound] : ranges_from(c.sensor, "--sensor")) {
             sensors_[name] = one_value("--sensor " + name, bound);
             loop.sensor(name, sensors_[name]);
@@ -426,7 +449,8 @@ private:
     std::string dataset_, scenario_, about_;
     std::optional<scenario_description> described_; ///< unless it is one of the data
     std::vector<varied_input> varied_;
-    std::optional<closed_model> closed_; ///< with a law
+    std::optional<recorded_model> further_; ///< with effects of the scenario
+    std::optional<closed_model> closed_;    ///< with a law
     std::map<std::string, interval> gains_;
     std::map<std::string, double> sensors_;
 };

@@ -18,10 +18,10 @@
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/report/draw/time_plot.hpp>
-#include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/identification_words.hpp>
+#include <sivid/report/stored_page.hpp>
 #include <sivid/work_limit.hpp>
 #ifdef SIVID_HAS_TBB
 #include <sivid/parallel/tbb_executor.hpp>
@@ -259,7 +259,7 @@ private:
     void add_result(file_set& files, explaining_motion const* motion) const {
         auto const outputs = outputs_csv(problem_, found_, motion);
         files.add("outputs.csv", outputs);
-        files.add("report.html", report::identification_page(view_).str());
+        report::stored(view_).add_to(files);
         files.add("result.json",
                   identification_json(problem_, found_,
                                       {.dataset = task_.data.id,

@@ -2,6 +2,7 @@
 #ifndef SIVID_APP_DETAIL_POSED_PROBLEM_HPP
 #define SIVID_APP_DETAIL_POSED_PROBLEM_HPP
 
+#include <sivid/app/detail/joined_effects.hpp>
 #include <sivid/app/names.hpp>
 #include <sivid/app/robot.hpp>
 #include <sivid/io/dataset.hpp>
@@ -9,7 +10,6 @@
 #include <sivid/io/problem_from_dataset.hpp>
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/model/affected_problem.hpp>
-#include <sivid/model/named_effects.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -57,17 +57,7 @@ inline std::filesystem::path data_of_result(std::filesystem::path const& result,
 /// @throws bad_request  for a name that there is not
 inline std::vector<effect> effects_of(robot const& r, dataset const& data,
                                       std::vector<std::string> const& names) {
-    auto const catalogue = chosen_effects(r.effects, data);
-    try {
-        return effects_named(catalogue, names, &r.model.about);
-    } catch (std::invalid_argument const& e) {
-        auto const known = names_in(catalogue);
-        for (auto const& name : names) {
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                throw bad_request(e.what() + suggestion(name, known));
-        }
-        throw bad_request(e.what());
-    }
+    return known_effects(chosen_effects(r.effects, data), names, r.model.about);
 }
 
 /// What a data set's result with effects rests on besides what is proved.

@@ -265,6 +265,14 @@ private:
         auto const about = names.empty() ? std::string{} : ", or one of: " + joined(names, " ");
         s.add_option("--scenario", scenario, "a JSON file (sivid-scenario-1)" + others + about);
     }
+    static void add_effects(CLI::App& s, std::vector<std::string>& effects,
+                            std::string const& beside) {
+        s.add_option("--with", effects,
+                     "effects that act in the scenario" + beside +
+                         ", separated by commas: wind for all that its prior allows, wind=0.2 or "
+                         "wind=0.1:0.3; of one with several parameters by --set wind.k=0.2")
+            ->delimiter(',');
+    }
     [[nodiscard]] std::string a_scenario() const {
         return of_.scenarios.empty() ? "next.json" : of_.scenarios.front().name;
     }
@@ -295,6 +303,7 @@ private:
                       "line is that of the middle, the proven tube that of all; or the sets that "
                       "tubes carry: first-order (the default), taylor-model (the default of "
                       "ranges)");
+        add_effects(*s, c.effects, "");
         s->add_option("--rate", c.rate, "rows of the CSV a unit of time")->capture_default_str();
         s->add_option("--input-rate", c.input_rate,
                       "samples of the inputs a unit of time, as in `generate`; not given: their "
@@ -546,6 +555,7 @@ private:
             add_design(*s);
             return;
         }
+        add_effects(*s, c.effects, ", beside those of the result");
         add_law(*s, what);
         if (what == decision::predict) {
             out->required();
@@ -686,11 +696,10 @@ private:
 
     void add_report() {
         auto& c = report_;
-        auto* const s = add(c, "report", "the page of a stored result anew", "result --out page",
-                            [this, &c] { return run(of_, c); });
-        s->add_option("result", c.result, "folder with result.json or diagnosis.json")->required();
-        s->add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
-        add_out(*s, c, "report.html; not given: that of the result");
+        auto* const s = add(c, "report", "the pages of a stored result of any command anew",
+                            "result --out page", [this, &c] { return run(of_, c); });
+        s->add_option("result", c.result, "folder with files *.page.json")->required();
+        add_out(*s, c, "the pages; not given: that of the result");
     }
 
     void add_describe() {

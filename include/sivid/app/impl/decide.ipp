@@ -15,6 +15,7 @@
 #include <sivid/io/file_set.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/report/stored_page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,7 @@ inline int run_predict(robot const& r, decision_command const& c) {
     progress.finish();
     file_set files(c.out);
     files.add("tubes.csv", tubes_csv(found));
-    files.add("prediction.html", report::prediction_page(*about, found, options).str());
+    report::stored_prediction_page(*about, found, options).add_to(files);
     files.add("prediction.json", prediction_json(*about, found, task.json_options()));
     files.commit();
     std::cout << task.scenario() << " for all parameters that " << task.dataset() << " leaves: "
@@ -95,8 +96,7 @@ inline int run_verify(robot const& r, decision_command const& c) {
             page.single_is = "the witness that violates it, simulated";
         }
         file_set files(c.out);
-        files.add("verification.html",
-                  report::verification_page(*about, asked, found, tubes, page).str());
+        report::stored_verification_page(*about, asked, found, tubes, page).add_to(files);
         files.add("verification.json",
                   verification_json(*about, asked, found, task.json_options()));
         files.commit();
@@ -175,9 +175,8 @@ inline int run_control(robot const& r, decision_command const& c) {
         auto const* const proved = proof ? &*proof : nullptr;
         file_set files(c.out);
         files.add("gains.csv", gains_csv(found));
-        files.add("control.html", report::control_page(*about, asked, found, proved,
-                                                       tubes ? &*tubes : nullptr, page)
-                                      .str());
+        report::stored_control_page(*about, asked, found, proved, tubes ? &*tubes : nullptr, page)
+            .add_to(files);
         files.add("control.json", control_json(*about, asked, found, proved, task.json_options()));
         files.commit();
     }

@@ -14,6 +14,7 @@
 #include <sivid/model/manoeuvre.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/report/stored_page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -181,7 +182,7 @@ private:
 
     void write(report::decision_page_options const& page, prediction const* tubes) const {
         file_set files(command_.out);
-        files.add("design.html", report::design_page(*one_.about, answer_, tubes, page).str());
+        report::stored_design_page(*one_.about, answer_, tubes, page).add_to(files);
         auto options = one_.task.json_options();
         if (two_) options.against_digest = two_->task.json_options().source_digest;
         files.add("design.json", design_json(*one_.about, answer_, options));

@@ -20,6 +20,7 @@
 #include <sivid/paving/identify.hpp>
 #include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_words.hpp>
+#include <sivid/report/stored_page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -311,19 +312,19 @@ private:
         return diagnose(problem_, effects_, options_);
     }
 
-    /// diagnosis.json and report.html, both or none.
+    /// diagnosis.json and report.html with its data, all or none.
     void write(diagnosis_run const& run) const {
-        auto const page = report::diagnosis_page(report::view_of(
+        auto const page = report::stored(report::view_of(
             run.result, plot_data(run, kept_), page_options(run, data_.id, command_.command_line)));
         file_set files(command_.out);
         files.add("diagnosis.json", diagnosis_json(run.result, data_.id, source_));
-        files.add("report.html", page.str());
+        page.add_to(files);
         files.commit();
     }
 
     /// Another diagnosis may have had another answer.
     void remove_earlier_model() const {
-        for (auto const* name : {"report.html", "result.json"}) {
+        for (auto const* name : {"report.html", "report.page.json", "result.json"}) {
             std::error_code none;
             std::filesystem::remove(command_.out / "model" / name, none);
         }

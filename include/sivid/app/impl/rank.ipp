@@ -15,6 +15,7 @@
 #include <sivid/io/file_set.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/report/stored_page.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -146,7 +147,7 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     page.scenario = json.scenario = c.scenario;
     page.footer = page_footer(c.command_line);
     file_set files(c.out);
-    files.add("ranking.html", report::ranking_page(problem, found, page, worth).str());
+    report::stored_ranking_page(problem, found, page, worth).add_to(files);
     files.add("ranking.json", ranking_json(problem, found, json, worth));
     files.commit();
     detail::print_channels(problem, found);

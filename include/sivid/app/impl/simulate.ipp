@@ -5,6 +5,7 @@
 #include <sivid/app/commands.hpp>
 
 #include <sivid/app/console.hpp>
+#include <sivid/app/detail/joined_effects.hpp>
 #include <sivid/app/generate.hpp>
 #include <sivid/app/names.hpp>
 #include <sivid/app/program.hpp>
@@ -20,6 +21,7 @@
 #include <sivid/model/describe.hpp>
 #include <sivid/model/to_dot.hpp>
 #include <sivid/number/decimal_output.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/page.hpp>
@@ -61,9 +63,10 @@ inline std::string shortest(double x) { return exact_decimal::shortest(x).text()
 /// One scenario, simulated and, on request, enclosed.
 class simulated_scenario {
 public:
-    simulated_scenario(robot const& r, scenario_description const& s, simulate_command const& c)
-        : about_{r.model.about}, plane_{r.plane}, scenario_{s} {
-        auto const& model = r.model;
+    /// @param model  that of the robot, with the effects that act
+    simulated_scenario(robot const& r, recorded_model const& model, scenario_description const& s,
+                       simulate_command const& c)
+        : about_{model.about}, plane_{r.plane}, scenario_{s} {
         auto const constants = middle_of(c);
         auto const recorded = c.input_rate
                                   ? record_inputs(s, *c.input_rate, 6, interpolation::linear)
@@ -74,18 +77,21 @@ public:
                                           : exact_signal(s.inputs[i], s.duration));
         }
         inputs_ = inputs;
-        flow_ = std::make_shared<flow const>(model, constants, inputs);
-        box start(s.initial.size());
-        std::vector<double> middle;
-        for (std::size_t i = 0; i < s.initial.size(); ++i) {
-            start[i] = s.initial[i].enclosure;
-            middle.push_back(mid(start[i]));
-        }
+        box stated(s.initial.size());
+        for (std::size_t i = 0; i < s.initial.size(); ++i) stated[i] = s.initial[i].enclosure;
+        auto const start_for = [&](parameter_choice const& choice) {
+            return start_with_added(model, constant_ranges(model, choice, {}), inputs, stated);
+        };
+        auto const start = start_for({{}, c.set});
+        auto const middle = mid(start_for(constants));
         auto times = sample_times(s.duration, c.rate, 6, true);
         if (times.back() < s.duration) times.push_back(s.duration);
         line_ = simulate(std::make_shared<approximate_model const>(model, constants, inputs),
                          inputs, middle, {}, 0, times, {1e-10});
         if (!c.validated) return;
+        if (model.has_memory())
+            throw bad_request("--validated: tubes of a model with delays, plays or rate limits are "
+                              "not proved yet; without it the model is simulated");
         validated_ = true;
         if (!ranges_of(c).empty()) {
             enclose_ranges(model, c, inputs, start);
@@ -96,7 +102,8 @@ public:
         options.maximum_step = s.duration / 300;
         options.minimum_step = 1e-5;
         options.method = method_of(c.how);
-        auto const tube = enclosed(c.how, flow_, start, s.duration, options);
+        auto const followed = std::make_shared<flow const>(model, constants, inputs);
+        auto const tube = enclosed(c.how, followed, start, s.duration, options);
         spans_ = tube.spans();
         if (tube.complete()) {
             at_end_ = tube.at(tube.end_time());
@@ -303,7 +310,6 @@ private:
     std::optional<report::plane_channels> const& plane_;
     scenario_description const& scenario_;
     std::vector<signal> inputs_;
-    std::shared_ptr<flow const> flow_;
     approximate_trajectory line_;
     bool validated_ = false;
     std::vector<swept_span> spans_;
@@ -325,22 +331,26 @@ inline std::string truth_json(generated const& made, generate_command const& c) 
 
 } // namespace detail
 
-SIVID_DECL int run(robot const& r, simulate_command const& c) {
+SIVID_DECL int run(robot const& r, simulate_command const& asked) {
+    auto c = asked;
     auto const scenarios = find_scenarios(r, c.scenario);
+    auto const with_effects = join_effects(r.model, r.effects, c.effects);
+    auto const& model = with_effects.model;
     for (auto const& [name, value] : c.set)
-        require_known(name, names_in(r.model.about.constants), "constant");
+        require_known(name, names_in(model.about.constants), "constant");
+    c.set.insert(with_effects.set.begin(), with_effects.set.end()); // what is told stays
     std::vector<std::unique_ptr<detail::simulated_scenario>> all;
     for (auto const& s : scenarios)
-        all.push_back(std::make_unique<detail::simulated_scenario>(r, s, c));
+        all.push_back(std::make_unique<detail::simulated_scenario>(r, model, s, c));
     prepare_folder(c.out);
     report::page page{
         {.kind = "Simulation",
          .title = c.scenario == "all" ? "All scenarios" : scenarios[0].name,
-         .lead = r.model.about.name +
+         .lead = r.model.about.name + (c.effects.empty() ? "" : " with " + enumeration(c.effects)) +
                  (c.validated ? ", simulated and enclosed." : ", simulated in floating point.")}};
     parameter_choice set;
     for (auto const& [name, value] : c.set) set.fixed[name] = value;
-    auto const derived = derivation_words(r.model, set);
+    auto const derived = derivation_words(model, set);
     if (!derived.empty()) page.bullets(derived);
     for (auto const& words : derived) std::cout << words << "\n";
     std::vector<std::string> warnings;

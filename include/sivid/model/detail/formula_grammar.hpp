@@ -116,7 +116,8 @@ protected:
             words_.fail(words_.at_end() ? "something is missing"
                                         : "this cannot begin an expression",
                         "write a number, a name of the model, a function, or a bracket");
-        if (words_.take("(")) return self().call(*name, position);
+        // On another line a bracket begins something else.
+        if (words_.on_line_of(position) && words_.take("(")) return self().call(*name, position);
         return self().quantity_of(*name, position);
     }
     /// The whole number behind ^, from lowest to highest.

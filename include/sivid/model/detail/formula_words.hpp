@@ -45,6 +45,10 @@ public:
         while (end > begin && is_space(text_[end - 1])) --end;
         return std::string(text_.substr(begin, end - begin));
     }
+    /// Whether what comes next stands on the line of a position.
+    [[nodiscard]] bool on_line_of(std::size_t begin) const {
+        return text_.substr(begin, at_ - begin).find('\n') == std::string_view::npos;
+    }
     [[nodiscard]] bool at_end() const { return at_ == text_.size(); }
 
     /// Whether the next word or sign is this one.

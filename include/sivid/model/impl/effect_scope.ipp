@@ -15,6 +15,16 @@
 
 namespace sivid {
 
+namespace detail {
+/// Nothing is early, and no play is narrower than none.
+inline void require_size(effect const& e, std::size_t k) {
+    auto const& p = e.parameters.at(k);
+    if (p.prior().lower() < 0)
+        throw std::invalid_argument("effect '" + e.name + "': the prior of " + p.name +
+                                    " goes below 0; give one that begins at 0");
+}
+} // namespace detail
+
 SIVID_DECL expression const& effect_scope::parameter(std::size_t k) const {
     return constants_.at(first_parameter_ + k);
 }
@@ -103,6 +113,7 @@ SIVID_DECL std::vector<std::size_t> effect_scope::with_copies(std::size_t input)
 }
 
 SIVID_DECL void effect_scope::remember(std::string const& input, memory_kind kind, std::size_t k) {
+    detail::require_size(*effect_, k);
     auto const of = index_of(model_->about.inputs, input, "input");
     auto const constant = first_parameter_ + k;
     if (!effect_->changes_within()) {
@@ -139,6 +150,7 @@ SIVID_DECL void effect_scope::show_late(std::string const& channel, memory_kind 
     if (!is_dead_time(kind))
         throw std::invalid_argument("effect '" + effect_->name + "': the channel '" + channel +
                                     "' can be late, and have no play and no rate limit");
+    detail::require_size(*effect_, k);
     model_->channel_delays.push_back({index_of(model_->about.channels, channel, "channel"),
                                       first_parameter_ + k, kind, switch_of_effect()});
 }

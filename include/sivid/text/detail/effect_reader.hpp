@@ -6,7 +6,9 @@
 #include <sivid/number/text/kept_decimal.hpp>
 #include <sivid/text/detail/effect_kinds.hpp>
 #include <sivid/text/detail/model_names.hpp>
+#include <sivid/text/detail/stated_state.hpp>
 #include <sivid/text/detail/toml_section.hpp>
+#include <sivid/text/detail/tried_graph.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -23,27 +25,40 @@ namespace sivid::text_detail {
 
 /// The formulas of an effect, and what their names mean: it lives as long as the effect does.
 struct effect_text {
-    enum class stage { inputs, rates, outputs };
+    enum class stage { starts, inputs, rates, outputs };
     struct parameter {
         std::string name;
         unit in;
     };
+    /// A state that the effect adds, by its name in the effect.
+    struct own_state {
+        model_description::state is;
+        unit in;
+        std::size_t position = 0;
+        std::optional<formula> start{}; ///< else 0
+    };
     std::shared_ptr<model_source const> source;
     std::shared_ptr<model_names const> names;
+    std::string effect; ///< its name
     std::vector<parameter> parameters;
+    std::vector<own_state> states;
     std::vector<statement> inputs, rates, outputs;
     std::vector<model_description::item> channels; ///< of the model
 
+    /// Adds the states.
+    void begin(effect_scope& scope) const {
+        std::map<std::string, formula_value> const no_parts;
+        auto values = values_at(scope, stage::starts, no_parts);
+        for (auto const& s : states) {
+            auto const& [name, unit_text, limit, equation] = s.is;
+            auto const start =
+                s.start ? values.fitted(*s.start, s.in, "'" + name + "'").value : expression(0);
+            (void)scope.add_state(in_model(name), unit_text, limit, start);
+        }
+    }
     void apply(effect_scope& scope, std::vector<statement> const& all, stage at) const {
         std::map<std::string, formula_value> parts; // of its own
-        named_values values(
-            *source, *names,
-            [&scope](std::string const& name, auto const&) { return scope.named(name); },
-            [&](formula::node const& n) -> std::optional<formula_value> {
-                auto const part = n.what == formula::kind::name ? parts.find(n.name) : parts.end();
-                return part != parts.end() ? part->second : own(scope, n, at);
-            },
-            {}, own_names());
+        auto values = values_at(scope, at, parts);
         for (auto const& s : all) {
             unit in;
             if (names_part(s, at)) {
@@ -54,7 +69,8 @@ struct effect_text {
             auto const what = s.name + (s.is_rate ? "'" : "");
             bool const factor = s.how == '*' || s.how == '/';
             auto const by =
-                values.fitted(s.by, factor ? unit() : in, factor ? "a factor of " + what : what);
+                values.fitted(s.by, factor ? unit() : in, factor ? "a factor of " + what : what)
+                    .value;
             changed = s.how == '='   ? by
                       : s.how == '+' ? changed + by
                       : s.how == '-' ? changed - by
@@ -69,16 +85,39 @@ struct effect_text {
         bool const changes =
             at == stage::outputs && std::any_of(channels.begin(), channels.end(),
                                                 [&](auto const& y) { return y.name == s.name; });
-        return !s.is_rate && s.how == '=' && !changes && !names->items.contains(s.name);
+        auto const own = own_names();
+        return !s.is_rate && s.how == '=' && !changes && !names->items.contains(s.name) &&
+               std::find(own.begin(), own.end(), s.name) == own.end();
+    }
+    [[nodiscard]] own_state const* state(std::string const& name) const {
+        auto const found = std::find_if(states.begin(), states.end(),
+                                        [&](auto const& s) { return s.is.name == name; });
+        return found == states.end() ? nullptr : &*found;
     }
 
 private:
     using kind = model_names::kind;
 
+    [[nodiscard]] std::string in_model(std::string const& state) const {
+        return effect + "." + state;
+    }
     [[nodiscard]] std::vector<std::string> own_names() const {
         std::vector<std::string> result;
         for (auto const& p : parameters) result.push_back(p.name);
+        for (auto const& s : states) result.push_back(s.is.name);
         return result;
+    }
+    /// @param parts  of the effect
+    [[nodiscard]] named_values values_at(effect_scope& scope, stage at,
+                                         std::map<std::string, formula_value> const& parts) const {
+        return named_values(
+            *source, *names,
+            [&scope](std::string const& name, auto const&) { return scope.named(name); },
+            [this, &scope, at, &parts](formula::node const& n) -> std::optional<formula_value> {
+                auto const part = n.what == formula::kind::name ? parts.find(n.name) : parts.end();
+                return part != parts.end() ? part->second : own(scope, n, at);
+            },
+            {}, own_names());
     }
     [[nodiscard]] std::optional<formula_value> own(effect_scope& scope, formula::node const& n,
                                                    stage at) const {
@@ -87,7 +126,8 @@ private:
             auto const& y = output(scope, n.name, n.position, in);
             return formula_value{y, in};
         }
-        if (n.what == formula::kind::rate && at != stage::inputs) {
+        bool const may_see = at == stage::rates || at == stage::outputs || state(n.name) != nullptr;
+        if (n.what == formula::kind::rate && may_see && at != stage::starts) {
             unit in;
             auto const& rate = rate_of(scope, n.name, n.position, in);
             return formula_value{rate, in};
@@ -96,10 +136,25 @@ private:
         for (std::size_t k = 0; k < parameters.size(); ++k)
             if (parameters[k].name == n.name)
                 return formula_value{scope.parameter(k), parameters[k].in};
+        auto const* s = state(n.name);
+        auto const known = names->items.find(n.name);
+        bool const moves =
+            s != nullptr || (known != names->items.end() && (known->second.what == kind::state ||
+                                                             known->second.what == kind::time));
+        if (at == stage::starts && moves)
+            source->fail(n.begin,
+                         "a state that an effect adds starts at what inputs and constants "
+                         "say, not at '" +
+                             n.name + "'",
+                         "let it be the difference, which starts at 0: d' = w' - d/tau, and w - d "
+                         "for what lags behind w");
+        if (s != nullptr) return formula_value{scope.state(in_model(n.name)), s->in};
         return std::nullopt;
     }
     [[nodiscard]] expression& target(effect_scope& scope, statement const& s, stage at,
                                      unit& in) const {
+        if (s.is_rate && state(s.name) != nullptr && at != stage::outputs)
+            return rate_of(scope, s.name, s.position, in);
         if (s.is_rate != (at == stage::rates))
             source->fail(s.position,
                          at == stage::rates ? "the equations of an effect change rates"
@@ -124,11 +179,11 @@ private:
     }
     [[nodiscard]] expression& rate_of(effect_scope& scope, std::string const& name,
                                       std::size_t position, unit& in) const {
-        auto const found = names->items.find(name);
-        if (found == names->items.end() || found->second.what != kind::state)
-            source->fail(position, "'" + name + "' is no state",
-                         nearest_name(name, of_kinds(kind::state, kind::state)));
-        in = found->second.in.times(names->time, -1);
+        if (auto const* own = state(name)) {
+            in = own->in.times(names->time, -1);
+            return scope.rate(in_model(name));
+        }
+        in = names->rate_of(names->state(*source, name, position));
         return scope.rate(name);
     }
     [[nodiscard]] expression& output(effect_scope& scope, std::string const& name,
@@ -148,8 +203,11 @@ private:
 class effect_reader {
 public:
     effect_reader(std::shared_ptr<model_source const> source, std::shared_ptr<model_names> names,
-                  recorded_model const& model)
-        : source_(std::move(source)), names_(std::move(names)), model_(&model) {}
+                  recorded_model const& model, std::vector<interval> constants)
+        : source_(std::move(source)),
+          names_(std::move(names)),
+          model_(&model),
+          constants_(std::move(constants)) {}
 
     [[nodiscard]] std::vector<effect> read(toml_section const& all) {
         constexpr std::size_t most = 200;
@@ -165,15 +223,36 @@ public:
     }
 
 private:
-    /// Joins the effect to the model: all of its formulas are evaluated.
+    /// Joins the effect to the model: all of its formulas are evaluated. Somewhere over the prior
+    /// they are defined, and where its constants are neutral they change nothing.
     void try_out(effect const& one, std::size_t position) const {
+        recorded_model joined;
         try {
-            (void)with(*model_, {one});
+            joined = with(*model_, {one});
         } catch (model_text_error const&) {
             throw;
         } catch (std::exception const& error) {
             source_->fail(position, error.what(), "correct this effect");
         }
+        auto constants = constants_;
+        for (auto const& p : one.parameters) constants.push_back(p.prior());
+        std::vector<partial_operation> domains;
+        auto const& g = joined.g;
+        for (node_id k = 0; k < g.size(); ++k) {
+            auto const op = g[k].op;
+            if (op == operation::sqrt || op == operation::log) domains.push_back({op, g[k].a, 0});
+            if (op == operation::div) domains.push_back({op, g[k].b, 0});
+        }
+        auto const values = all_values(joined.about, std::move(constants));
+        if (auto const* never = never_defined(g, domains, values))
+            source_->fail(position, "the effect has " + domain_words(never->op),
+                          "correct its formulas, or the prior of its constants");
+        auto const trace = one.may_leave_traces() ? std::nullopt : left_trace(*model_, joined);
+        if (trace)
+            source_->fail(
+                position, "the effect changes " + *trace + " where its constants are neutral",
+                "let it vanish there, or state where it does: k = { prior = \"[1, 2] N\", "
+                "neutral = \"1 N\" }");
     }
     void require_name(std::string const& name, std::size_t position) const {
         bool const plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
@@ -194,7 +273,8 @@ private:
     }
 
     [[nodiscard]] effect own(toml_section const& of, toml_section::entry const& e) {
-        of.allow({"kind", "about", "order", "constants", "inputs", "equations", "outputs"});
+        of.allow(
+            {"kind", "about", "order", "constants", "states", "inputs", "equations", "outputs"});
         effect result;
         result.name = e.name;
         result.about = of.text("about").value_or("");
@@ -207,8 +287,10 @@ private:
         auto text = std::make_shared<effect_text>();
         text->source = source_;
         text->names = names_;
+        text->effect = e.name;
         text->channels = model_->about.channels;
         read_parameters(of, result, *text);
+        read_states(of, *text);
         text->inputs = of.statements("inputs");
         text->rates = of.statements("equations");
         text->outputs = of.statements("outputs");
@@ -216,6 +298,7 @@ private:
         if (std::all_of(all.begin(), all.end(), [](auto const* s) { return s->empty(); }))
             source_->fail(e.key, "the effect changes nothing",
                           "add equations = \"w' += -k*w/J\", inputs = or outputs =");
+        require_own_equations(*text);
         set_edits(result, text);
         try_out(result, e.key);
         require_used(of, *text, all);
@@ -223,8 +306,11 @@ private:
     }
     static void set_edits(effect& e, std::shared_ptr<effect_text const> const& text) {
         using stage = effect_text::stage;
-        if (!text->inputs.empty())
-            e.on_inputs = [text](effect_scope& h) { text->apply(h, text->inputs, stage::inputs); };
+        if (!text->inputs.empty() || !text->states.empty())
+            e.on_inputs = [text](effect_scope& h) {
+                text->begin(h);
+                text->apply(h, text->inputs, stage::inputs);
+            };
         if (!text->rates.empty())
             e.on_rates = [text](effect_scope& h) { text->apply(h, text->rates, stage::rates); };
         if (!text->outputs.empty())
@@ -263,16 +349,67 @@ private:
                 source_->fail(
                     at, "the prior does not contain the neutral value, " + neutral.lower.text(),
                     "correct the prior, or add neutral = ...");
-            if (names_->items.contains(c.name))
-                source_->fail(c.key, "the model has a '" + c.name + "', too",
-                              "give the effect's constant another name");
-            model_names check; // whether it is a name
-            check.declare(*source_, c.name, {model_names::kind::constant, {}, 0, c.key});
+            require_free(c, text);
             auto const in = prior.in ? prior.unit_text : "1";
             result.parameters.push_back(
                 {c.name, in, kept(prior.lower), kept(prior.upper), kept(neutral.lower)});
             text.parameters.push_back({c.name, unit(in)});
         }
+    }
+    /// What the effect brings has a name, which nothing else has.
+    void require_free(toml_section::entry const& e, effect_text const& text) const {
+        auto const taken = [&](auto const& name) { return name == e.name; };
+        if (names_->items.contains(e.name) ||
+            std::any_of(text.parameters.begin(), text.parameters.end(),
+                        [&](auto const& p) { return taken(p.name); }))
+            source_->fail(e.key,
+                          (names_->items.contains(e.name) ? "the model has a '"
+                                                          : "the effect has a constant '") +
+                              e.name + "', too",
+                          "give this another name");
+        model_names check; // whether it is a name
+        check.declare(*source_, e.name, {model_names::kind::constant, {}, 0, e.key});
+    }
+    void read_states(toml_section const& of, effect_text& text) const {
+        auto const states = of.section("states");
+        if (!states) return;
+        for (auto const& e : states->entries()) {
+            require_free(e, text);
+            auto is = stated_state(*source_, *states, e, "start");
+            unit const in(is.unit);
+            text.states.push_back({std::move(is), in, e.key});
+            if (!e.node->is_table()) continue;
+            auto const fields = states->within(e);
+            if (auto const* start = fields.find("start")) {
+                text.states.back().start = fields.formula_of(*start);
+                names_->use(*text.states.back().start);
+            }
+        }
+    }
+    /// Each state that an effect adds has one equation, and its rate stands in what comes later.
+    void require_own_equations(effect_text const& text) const {
+        std::set<std::string, std::less<>> known;
+        for (auto const* list : {&text.inputs, &text.rates, &text.outputs})
+            for (auto const& s : *list) {
+                if (!s.left.nodes.empty())
+                    source_->fail(s.position, "an effect has no equations between formulas",
+                                  "write w' += ... or, of a state that it adds, f' = ...");
+                for (auto const& n : s.by.nodes)
+                    if (n.what == formula::kind::rate && text.state(n.name) != nullptr &&
+                        !known.contains(n.name))
+                        source_->fail(n.position, "the rate " + n.name + "' is not known here",
+                                      "write its equation before, and solve it for " + n.name +
+                                          "'");
+                if (!s.is_rate || text.state(s.name) == nullptr) continue;
+                if (s.how != '=' || !known.insert(s.name).second)
+                    source_->fail(s.position, "a second equation for " + s.name + "'",
+                                  "a state that an effect adds has one, with =");
+            }
+        for (auto const& s : text.states)
+            if (!known.contains(s.is.name))
+                source_->fail(s.position, "the state '" + s.is.name + "' has no equation",
+                              "add one to the effect's inputs or equations: " + s.is.name +
+                                  "' = ...");
     }
     template <class Lists>
     void require_used(toml_section const& of, effect_text const& text, Lists const& all) {
@@ -283,12 +420,16 @@ private:
                 for (auto const& n : s.by.nodes)
                     if (n.what == formula::kind::name) here.insert(n.name);
             }
+        for (auto const& s : text.states) // they may start at a constant
+            for (auto const& n : s.start.value_or(formula{}).nodes) here.insert(n.name);
         auto const constants = of.section("constants");
-        for (auto const& p : text.parameters)
-            if (!here.contains(p.name))
-                source_->fail(constants->find(p.name)->key,
-                              "'" + p.name + "' stands in no formula of the effect",
+        auto const require = [&](std::string const& name, std::size_t position) {
+            if (!here.contains(name))
+                source_->fail(position, "'" + name + "' stands in no formula of the effect",
                               "use it, or leave it out");
+        };
+        for (auto const& p : text.parameters) require(p.name, constants->find(p.name)->key);
+        for (auto const& s : text.states) require(s.is.name, s.position);
         using stage = effect_text::stage;
         for (auto const& [list, at] : {std::pair{&text.inputs, stage::inputs},
                                        {&text.rates, stage::rates},
@@ -327,9 +468,14 @@ private:
         require_unit(prior, size, "the prior");
         if (!prior.is_range)
             source_->fail(prior.position, "a prior has two bounds", "write \"[0, 1] N\"");
+        if (found->in == effect_kind::size::time && prior.lower.is_negative())
+            source_->fail(prior.position, "this time may be below 0", "write \"[0, 1] s\"");
         if (auto const* l = of.find("limit")) {
             auto const limit = of.quantity(*l);
             require_unit(limit, x, "the limit");
+            if (!limit.upper.is_positive())
+                source_->fail(limit.position, "the limit is not above 0",
+                              "say how large it may be");
             r.limit = *nearest(limit.upper);
         }
         r.rests = of.flag("rests").value_or(false);
@@ -369,6 +515,9 @@ private:
                                : k.outputs == 1 ? "one thing"
                                                 : "two outputs"),
                           "correct this list");
+        for (auto const& name : of)
+            if (std::count(of.begin(), of.end(), name) > 1)
+                source_->fail(position, in_quotes(name) + " stands twice", "correct this list");
         auto const& about = model_->about;
         auto const unit_in = [&](auto const& items, char const* kind) {
             std::string result;
@@ -402,6 +551,7 @@ private:
     std::shared_ptr<model_source const> source_;
     std::shared_ptr<model_names> names_;
     recorded_model const* model_;
+    std::vector<interval> constants_; ///< their priors, or values
 };
 
 } // namespace sivid::text_detail

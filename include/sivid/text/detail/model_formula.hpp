@@ -45,15 +45,21 @@ struct formula {
     };
     std::vector<node> nodes;
     [[nodiscard]] std::size_t begin() const { return nodes.back().begin; }
+    [[nodiscard]] bool has(kind what) const {
+        return std::any_of(nodes.begin(), nodes.end(),
+                           [&](node const& n) { return n.what == what; });
+    }
 };
 
-/// "W *= 1 - k*t": what changes, how, and by what.
+/// "W *= 1 - k*t": what changes, how, and by what; or "J*w' = T - b*w", an equation between two
+/// formulas.
 struct statement {
-    std::string name;
+    std::string name; ///< empty: of formulas
     bool is_rate = false;
     char how = '='; ///< or + - * / in front of it
     std::size_t position = 0;
     formula by;
+    formula left{}; ///< of an equation between formulas
 };
 
 /// Reads formulas and statements of a part of the source.
@@ -82,17 +88,13 @@ public:
             if (words_.take(";")) continue;
             statement s;
             s.position = words_.position();
+            auto const begin = words_;
             auto const name = words_.take_name();
-            if (!name)
-                words_.fail("an equation begins with a name",
-                            "write one as in w' = -b*w/J; a sign is missing, or a bracket");
-            s.name = *name;
-            s.is_rate = words_.take("'");
+            s.name = name.value_or("");
+            s.is_rate = name && words_.take("'");
             for (char const how : {'+', '-', '*', '/'})
-                if (words_.take(std::string{how, '='})) s.how = how;
-            if (s.how == '=')
-                words_.need("=", "write an equation as in w' = -b*w/J, * for products, and units "
-                                 "of numbers in brackets: 9.81 [m/s^2]");
+                if (name && words_.take(std::string{how, '='})) s.how = how;
+            if (s.how == '=' && !(name && words_.take("="))) between_formulas(s, begin);
             s.by = next();
             result.push_back(std::move(s));
         }
@@ -102,6 +104,27 @@ public:
 private:
     using kind = formula::kind;
 
+    /// Up to the sign of an equation whose left side is a formula, with a rate in it.
+    /// @param begin  of the statement
+    void between_formulas(statement& s, model_detail::formula_words const& begin) {
+        auto const behind_name = std::exchange(words_, begin);
+        bool const named = !s.name.empty();
+        if (named || words_.peek("(") || words_.peek("-") || words_.take_number()) {
+            words_ = begin;
+            s.left = next();
+            if (s.left.has(kind::rate) && words_.take("=")) {
+                s.name.clear();
+                s.is_rate = false;
+                return;
+            }
+        }
+        words_ = behind_name;
+        if (!named)
+            words_.fail("an equation begins with a name",
+                        "write one as in w' = -b*w/J; a sign is missing, or a bracket");
+        words_.need("=", "write an equation as in w' = -b*w/J or J*w' = -b*w, * for products, and "
+                         "units of numbers in brackets: 9.81 [m/s^2]");
+    }
     [[nodiscard]] formula next() {
         sum();
         return std::exchange(made_, {});

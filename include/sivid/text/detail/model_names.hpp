@@ -61,11 +61,24 @@ struct model_names {
             source.fail(what.position, "two things are called '" + name + "'",
                         "states, inputs, constants and named parts need names of their own");
     }
-    [[nodiscard]] std::vector<std::string> all() const {
+    /// All that are of this kind, or all.
+    [[nodiscard]] std::vector<std::string> all(std::optional<kind> of = {}) const {
         std::vector<std::string> names;
-        for (auto const& [name, what] : items) names.push_back(name);
+        for (auto const& [name, item] : items)
+            if (!of || item.what == *of) names.push_back(name);
         return names;
     }
+    /// The state of this name. @throws model_text_error  for another name
+    [[nodiscard]] item const& state(model_source const& source, std::string const& name,
+                                    std::size_t position) const {
+        auto const found = items.find(name);
+        if (found == items.end() || found->second.what != kind::state)
+            source.fail(position, "'" + name + "' is no state",
+                        nearest_name(name, all(kind::state)));
+        return found->second;
+    }
+    /// The unit of the rate of something.
+    [[nodiscard]] unit rate_of(item const& x) const { return x.in.times(time, -1); }
 };
 
 /// The values of a model's names at some stage of its recording: leaves as somebody gives them,
@@ -93,7 +106,7 @@ public:
     named_values& operator=(named_values const&) = delete;
 
     [[nodiscard]] formula_value operator()(formula const& f) { return evaluate_(f); }
-    [[nodiscard]] expression fitted(formula const& f, unit const& to, std::string const& what) {
+    [[nodiscard]] formula_value fitted(formula const& f, unit const& to, std::string const& what) {
         return evaluate_.fitted(evaluate_(f), to, what);
     }
     /// A named part, by its number.
@@ -132,7 +145,7 @@ private:
                           "write the formula of the output");
         if (n.what == formula::kind::rate)
             source_->fail(n.begin, "the rate " + n.name + "' has no place here",
-                          "write its formula: name it as a part, and use that twice");
+                          "rates stand in the equations and in outputs");
         if (n.name == "pi") return {4 * atan(expression(1))};
         auto const found = names_->items.find(n.name);
         if (found == names_->items.end()) {

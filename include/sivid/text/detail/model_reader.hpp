@@ -2,18 +2,17 @@
 #ifndef SIVID_TEXT_DETAIL_MODEL_READER_HPP
 #define SIVID_TEXT_DETAIL_MODEL_READER_HPP
 
-#include <sivid/io/dataset/unit_conversion.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
-#include <sivid/model/graph/graph_range.hpp>
+#include <sivid/model/implicit_model.hpp>
 #include <sivid/text/detail/effect_reader.hpp>
 #include <sivid/text/detail/model_names.hpp>
+#include <sivid/text/detail/stated_state.hpp>
 #include <sivid/text/detail/toml_section.hpp>
+#include <sivid/text/detail/tried_graph.hpp>
 #include <sivid/text/text_model.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -48,7 +47,7 @@ public:
         g.leaf(operation::time, 0);
         record();
         model_detail::require_own_names(about());
-        effect_reader effects(source_, names_, result_.model);
+        effect_reader effects(source_, names_, result_.model, constant_ranges());
         if (auto const section = whole_.section("effect")) result_.effects = effects.read(*section);
         require_used();
         return std::move(result_);
@@ -76,7 +75,7 @@ private:
         result_.about = whole_.text("about").value_or("");
         if (auto const* time = whole_.find("time")) {
             about().time_unit = whole_.string_of(*time);
-            names_->time = unit_in(*time, about().time_unit);
+            names_->time = unit_in(*source_, *time, about().time_unit);
             if (!names_->time.in(unit("s")))
                 source_->fail(time->value, "this is no unit of time", "write \"s\" or \"ms\"");
         } else {
@@ -85,22 +84,6 @@ private:
         names_->items["t"] = {kind::time, names_->time};
         names_->items["pi"] = {kind::pi};
     }
-    [[nodiscard]] unit unit_in(toml_section::entry const& e, std::string const& text) const {
-        unit const u(text);
-        if (!u.fault().empty())
-            source_->fail(e.value, "this is no unit: " + u.fault(),
-                          "write one as in \"kg m^2/s\", \"1\" for none");
-        return u;
-    }
-    /// The unit that a table states: its text and itself; "1" where there is none.
-    [[nodiscard]] std::optional<std::string> stated_unit(toml_section const& of) const {
-        auto const* e = of.find("unit");
-        if (e == nullptr) return std::nullopt;
-        auto const text = std::string(of.string_of(*e));
-        (void)unit_in(*e, text);
-        return text;
-    }
-
     void read_states() {
         auto const states = whole_.section("states");
         if (!states || states->entries().empty())
@@ -108,27 +91,8 @@ private:
                           "the model has no states",
                           "add a table [states] with lines such as: w = \"50 rad/s\"");
         for (auto const& e : states->entries()) {
-            model_description::state s;
-            s.name = e.name;
-            stated_quantity range;
-            if (e.node->is_table()) {
-                auto const of = states->within(e);
-                of.allow({"unit", "range", "equation"});
-                auto const* r = of.find("range");
-                if (r == nullptr)
-                    source_->fail(e.value, "the state '" + e.name + "' has no range",
-                                  "say how large it is: range = 8 for |x| <= 8, or [0, 5]");
-                range = of.quantity(*r);
-                s.unit = stated_unit(of).value_or(range.in ? range.unit_text : "1");
-                s.equation = of.text("equation").value_or("");
-            } else {
-                range = states->quantity(e);
-                s.unit = range.in ? range.unit_text : "1";
-            }
-            if (!range.is_range) range.lower = -magnitude(range.upper);
-            if (!range.is_range) range.upper = magnitude(range.upper);
-            auto const bounds = converted(range, s.unit, "the state '" + e.name + "'").enclosure;
-            s.limit = {bounds.lower(), bounds.upper()};
+            auto s = stated_state(*source_, *states, e, "equation");
+            if (e.node->is_table()) s.equation = states->within(e).text("equation").value_or("");
             names_->declare(*source_, e.name,
                             {kind::state, unit(s.unit), about().states.size(), e.key});
             about().states.push_back(std::move(s));
@@ -142,13 +106,13 @@ private:
             if (e.node->is_table()) {
                 auto const of = inputs->within(e);
                 of.allow({"unit", "delay"});
-                u.unit = stated_unit(of).value_or("1");
+                u.unit = stated_unit(*source_, of).value_or("1");
                 if (auto const* d = of.find("delay"))
                     delays_.push_back(
                         {about().inputs.size(), false, std::string(of.string_of(*d)), d->value});
             } else {
                 u.unit = inputs->string_of(e);
-                (void)unit_in(e, u.unit);
+                (void)unit_in(*source_, e, u.unit);
             }
             names_->declare(*source_, e.name,
                             {kind::input, unit(u.unit), about().inputs.size(), e.key});
@@ -166,7 +130,7 @@ private:
             if (e.node->is_table()) {
                 auto const of = constants->within(e);
                 of.allow({"unit", "value", "prior", "follows"});
-                in = stated_unit(of);
+                in = stated_unit(*source_, of);
                 if (auto const* v = of.find("value")) value = of.quantity(*v);
                 if (auto const* p = of.find("prior")) range = of.quantity(*p);
                 if (auto const* f = of.find("follows"))
@@ -197,9 +161,9 @@ private:
             value = range;
             value->lower = value->upper = (range->lower + range->upper).times(half);
         }
-        c.nominal = converted(*value, unit_text, what);
+        c.nominal = converted(*source_, *value, unit_text, what);
         if (range) {
-            auto const bounds = converted(*range, unit_text, what).enclosure;
+            auto const bounds = converted(*source_, *range, unit_text, what).enclosure;
             if (!(bounds.lower() <= c.nominal.nearest && c.nominal.nearest <= bounds.upper()))
                 source_->fail(value->position, "the value is outside the prior",
                               "correct one of them");
@@ -209,28 +173,6 @@ private:
         names_->declare(*source_, e.name,
                         {kind::constant, unit(unit_text), about().constants.size(), e.key});
         about().constants.push_back(std::move(c));
-    }
-    /// A stated quantity in a unit: its bounds rounded outward, and its middle.
-    [[nodiscard]] literal converted(stated_quantity const& q, std::string const& to,
-                                    std::string const& what) const {
-        auto const ratio = q.in ? q.in->in(unit(to)) : unit::ratio{};
-        auto const c = ratio ? unit_conversion::of(*ratio) : std::nullopt;
-        if (!c)
-            source_->fail(q.position,
-                          what + " has the unit " + unit_words(unit(to)) + ", and this is in " +
-                              unit_words(*q.in),
-                          "write it in another unit");
-        auto const r = (*c)(q.lower, q.upper);
-        bool const as_it_is = ratio->is_one();
-        auto const bounds = as_it_is ? enclose(q.lower, q.upper)
-                            : r      ? enclose(r->value - r->rounding, r->value + r->rounding)
-                                     : std::nullopt;
-        if (!bounds)
-            source_->fail(q.position, "the number is beyond all doubles", "use another unit");
-        auto const middle = q.is_range ? std::optional(mid(*bounds))
-                            : as_it_is ? nearest(q.lower)
-                                       : nearest(r->value);
-        return {*bounds, middle.value_or(mid(*bounds))};
     }
 
     void read_parts() {
@@ -249,9 +191,10 @@ private:
             if (s.how != '=')
                 source_->fail(s.position, "the equations of a model have = alone",
                               "+= and the like stand in effects");
-            if (!s.is_rate) {
+            if (!s.is_rate && s.left.nodes.empty()) {
                 add(s.name, std::move(s.by), s.position);
             } else {
+                names_->use(s.left);
                 s.by = used(std::move(s.by));
                 equations_.push_back(std::move(s));
             }
@@ -283,7 +226,7 @@ private:
     /// Enters all formulas into the graph.
     void record() {
         auto& model = result_.model;
-        std::vector<asked> domains;
+        std::vector<partial_operation> domains;
         named_values values(
             *source_, *names_,
             [&](std::string const&, model_names::item const& item) {
@@ -293,19 +236,20 @@ private:
                                                               : operation::time;
                 return expression(model.g, model.g.leaf(op, item.index));
             },
-            {},
+            [&](formula::node const& n) { return rate_in_formula(n); },
             [&](operation op, expression const& x, std::size_t position) {
                 domains.push_back({op, x.in(model.g), position});
             });
         for (std::size_t k = 0; k < names_->parts.size(); ++k)
             (void)values.part(k, names_->parts[k].is.begin());
-        record_rates(values);
+        record_rates(values, domains);
+        values.forget(); // parts may have rates in them, which are known now
         record_outputs(values);
         for (auto const& f : follows_) {
             auto const& c = about().constants[names_->items.find(f.name)->second.index];
             try {
-                model_detail::add_derived(model, f.name,
-                                          values.fitted(f.is, unit(c.unit), "'" + f.name + "'"));
+                auto const value = values.fitted(f.is, unit(c.unit), "'" + f.name + "'").value;
+                model_detail::add_derived(model, f.name, value);
             } catch (model_text_error const&) {
                 throw;
             } catch (std::invalid_argument const& error) {
@@ -315,34 +259,101 @@ private:
         add_delays();
         require_domains(domains);
     }
-    void record_rates(named_values& values) {
+    /// A rate: an unknown of the equations, and in outputs what solves them.
+    [[nodiscard]] std::optional<formula_value> rate_in_formula(formula::node const& n) {
+        if (n.what != formula::kind::rate) return std::nullopt;
+        auto const& item = names_->state(*source_, n.name, n.begin);
+        formula_value x{expression(0), names_->rate_of(item)};
+        auto& model = result_.model;
+        if (!model.rate.empty()) {
+            x.value = expression(model.g, model.rate[item.index]);
+        } else {
+            x.rates.emplace(item.index, expression(1));
+            x.rates_alone = true;
+        }
+        return x;
+    }
+    /// The equations in the order of the states: each stands for the rate that is its left side,
+    /// the others in their order for the states that are left.
+    [[nodiscard]] std::vector<statement const*> ordered_equations() {
         std::vector<statement const*> of(about().states.size());
         for (auto const& s : equations_) {
-            auto const found = names_->items.find(s.name);
-            if (found == names_->items.end() || found->second.what != kind::state)
-                source_->fail(s.position, "'" + s.name + "' is no state",
-                              nearest_name(s.name, names_of_states()));
-            auto const*& one = of[found->second.index];
+            if (!s.left.nodes.empty()) continue;
+            auto const*& one = of[names_->state(*source_, s.name, s.position).index];
             if (one != nullptr)
                 source_->fail(s.position, "a second equation for " + s.name + "'",
                               "each state has one");
             one = &s;
         }
-        for (std::size_t i = 0; i < of.size(); ++i) {
-            auto const& s = about().states[i];
-            auto const& item = names_->items.find(s.name)->second;
-            if (of[i] == nullptr)
-                source_->fail(item.position, "the state '" + s.name + "' has no equation",
-                              "add one to the equations: " + s.name + "' = ...");
-            auto const rate =
-                values.fitted(of[i]->by, item.in.times(names_->time, -1), s.name + "'");
-            result_.model.rate.push_back(rate.in(result_.model.g));
+        auto const next = [&] { return std::find(of.begin(), of.end(), nullptr); };
+        for (auto const& s : equations_) {
+            if (s.left.nodes.empty()) continue;
+            if (next() == of.end())
+                source_->fail(s.position, "one equation more than there are states",
+                              "leave one out, or add a state");
+            *next() = &s;
         }
+        if (next() != of.end()) {
+            auto const& s = about().states[static_cast<std::size_t>(next() - of.begin())];
+            source_->fail(names_->items.find(s.name)->second.position,
+                          "the state '" + s.name + "' has no equation",
+                          "add one to the equations: " + s.name + "' = ...");
+        }
+        return of;
     }
-    [[nodiscard]] std::vector<std::string> names_of_states() {
-        std::vector<std::string> names;
-        for (auto const& s : about().states) names.push_back(s.name);
-        return names;
+    void record_rates(named_values& values, std::vector<partial_operation>& domains) {
+        auto const equations = ordered_equations();
+        std::vector<formula_value> left, right;
+        statement const* implicit = nullptr;
+        for (std::size_t i = 0; i < equations.size(); ++i) {
+            auto const& s = *equations[i];
+            bool const of_rate = s.left.nodes.empty();
+            if (of_rate) {
+                formula::node rate{formula::kind::rate, s.position, s.position};
+                rate.name = s.name;
+                left.push_back(*rate_in_formula(rate));
+            } else {
+                left.push_back(values(s.left));
+            }
+            right.push_back(values.fitted(s.by, left.back().in,
+                                          of_rate ? s.name + "'" : "what is on the left"));
+            bool const given = of_rate && right.back().rates.empty();
+            if (!given && implicit == nullptr) implicit = &s;
+        }
+        if (implicit != nullptr) return solve(left, right, *implicit, domains);
+        for (auto const& r : right) result_.model.rate.push_back(r.value.in(result_.model.g));
+    }
+    /// Solves left = right for the rates, as the equations of an implicit functor.
+    void solve(std::vector<formula_value> const& left, std::vector<formula_value> const& right,
+               statement const& first, std::vector<partial_operation>& domains) {
+        constexpr std::size_t most = 200; // the matrix has so many rows and columns
+        if (left.size() > most)
+            source_->fail(first.position, "more than 200 states beside rates to be solved for",
+                          "solve these equations for the rates");
+        auto& g = result_.model.g;
+        std::vector<expression> mass, force;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            auto l = left[i], r = right[i];
+            l.rates_alone = r.rates_alone = true; // their values apart
+            auto const row = sum_of(l, r, true).rates;
+            for (std::size_t j = 0; j < left.size(); ++j)
+                mass.push_back(row.contains(j) ? row.at(j) : expression(0));
+            l = left[i], r = right[i];
+            l.rates.clear(), r.rates.clear();
+            force.push_back(sum_of(r, l, true).value);
+        }
+        auto const before = static_cast<node_id>(g.size());
+        std::vector<expression> solved;
+        try {
+            solved = model_detail::solved_rates(result_.model, mass, force, {});
+        } catch (std::invalid_argument const& error) {
+            source_->fail(first.position, error.what(),
+                          "the equations have to be independent, and to have all rates in them");
+        }
+        for (auto const& rate : solved) result_.model.rate.push_back(rate.in(g));
+        for (auto k = before; k < g.size(); ++k)
+            if (g[k].op == operation::div)
+                domains.push_back({operation::div, g[k].b, first.position, true});
     }
     void record_outputs(named_values& values) {
         auto const outputs = whole_.section("outputs");
@@ -355,7 +366,7 @@ private:
             if (e.node->is_table()) {
                 auto const of = outputs->within(e);
                 of.allow({"unit", "equation", "delay"});
-                in = stated_unit(of);
+                in = stated_unit(*source_, of);
                 if (auto const* f = of.find("equation"))
                     is = of.formula_of(*f);
                 else
@@ -370,7 +381,7 @@ private:
             names_->use(is);
             auto const value = values(is);
             if (!in) in = unit_text_of(is, value.in);
-            auto const shown = values.fitted(is, unit(*in), "the output '" + e.name + "'");
+            auto const shown = values.fitted(is, unit(*in), "the output '" + e.name + "'").value;
             about().channels.push_back({e.name, *in});
             result_.model.observe.push_back(shown.in(result_.model.g));
         }
@@ -413,42 +424,25 @@ private:
         return result_.prior[static_cast<std::size_t>(at - result_.unknown.begin())];
     }
 
-    struct asked {
-        operation op;
-        node_id of;
-        std::size_t position;
-    };
+    /// Of all constants.
+    [[nodiscard]] std::vector<interval> constant_ranges() {
+        std::vector<interval> result;
+        for (std::size_t k = 0; k < about().constants.size(); ++k) result.push_back(range_of(k));
+        return result;
+    }
     /// Refuses functions whose arguments are outside their domains for all constants of the prior,
     /// and all states of the own ranges.
-    void require_domains(std::vector<asked> const& domains) {
-        if (domains.empty()) return;
-        leaf_ranges at;
-        constexpr double largest = std::numeric_limits<double>::max();
-        at.time = interval(0, largest);
-        at.states = result_.start_ranges();
-        std::vector<interval> constants;
-        for (std::size_t k = 0; k < about().constants.size(); ++k) constants.push_back(range_of(k));
-        at.constants = box(std::move(constants));
-        at.inputs = box(std::vector<interval>(about().inputs.size(), interval::whole()));
-        std::vector<node_id> nodes;
-        for (auto const& d : domains) nodes.push_back(d.of);
-        graph_range ranges(result_.model.g, nodes);
-        ranges.evaluate(at);
-        for (auto const& d : domains) {
-            auto const& x = ranges.value(d.of);
-            if (is_empty(x) || ranges.undefined(d.of)) continue;
-            bool const never = d.op == operation::sqrt  ? x.upper() < 0
-                               : d.op == operation::log ? x.upper() <= 0
-                                                        : x.lower() == 0 && x.upper() == 0;
-            if (never)
-                source_->fail(d.position,
-                              d.op == operation::div
-                                  ? "a division by 0"
-                                  : std::string(name(d.op)) + " of what is " +
-                                        (d.op == operation::sqrt ? "below 0" : "not above 0") +
-                                        " over the whole prior",
-                              "correct the formula, the prior or the ranges of the states");
-        }
+    void require_domains(std::vector<partial_operation> const& domains) {
+        auto const* never =
+            never_defined(result_.model.g, domains, all_values(about(), constant_ranges()));
+        if (never == nullptr) return;
+        if (never->solves)
+            source_->fail(never->position,
+                          "these equations have no solution for the rates, or many: what is "
+                          "divided by is 0 over the whole prior",
+                          "correct the factors of the rates");
+        source_->fail(never->position, domain_words(never->op),
+                      "correct the formula, the prior or the ranges of the states");
     }
     /// Refuses constants and named parts that stand in no formula.
     void require_used() {
