@@ -49,7 +49,8 @@ inline constexpr std::size_t fields_of =
     : one_of<T, cause>                                                  ? 13
     : one_of<T, channel_series>                                         ? 14
     : one_of<T, run_reach>                                              ? 15
-    : one_of<T, identification_view, diagnosis>                         ? 31
+    : one_of<T, identification_view>                                    ? 31
+    : one_of<T, diagnosis>                                              ? 32
                                                                         : 0;
 
 // clang-format off
@@ -83,6 +84,12 @@ void with_fields(auto& x, auto const& f) {
           ad, ae] = x;
         f(a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x_, y, z, aa, ab, ac, ad,
           ae);
+    }
+    else if constexpr (N == 32) {
+        auto& [a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x_, y, z, aa, ab, ac,
+          ad, ae, af] = x;
+        f(a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x_, y, z, aa, ab, ac, ad,
+          ae, af);
     }
     else static_assert(N == 0, "with_fields: add this number of members");
 }
