@@ -77,9 +77,11 @@ endforeach()
 sivid_add_library_of(sivid_library ${objects})
 
 # One object, of which hidden symbols are local: in a static library, too, nothing of a program takes their place.
+find_program(SIVID_LD NAMES ld.bfd ld DOC "The linker of binutils, which joins objects" REQUIRED)
+mark_as_advanced(SIVID_LD)
 set(object "${CMAKE_CURRENT_BINARY_DIR}/sivid_library/sivid${CMAKE_CXX_OUTPUT_EXTENSION}")
 add_custom_command(OUTPUT "${object}"
-    COMMAND "${CMAKE_LINKER}" -r --force-group-allocation -o "${object}" ${objects}
+    COMMAND "${SIVID_LD}" -r --force-group-allocation -o "${object}" ${objects}
     COMMAND "${CMAKE_OBJCOPY}" --localize-hidden "${object}"
     DEPENDS ${own_parts} ${objects} COMMAND_EXPAND_LISTS VERBATIM)
 set_source_files_properties("${object}" PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
