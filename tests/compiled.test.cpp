@@ -11,7 +11,7 @@
 TEST_CASE("entry functions are inline but where a library defines them") {
     std::string const specifier = "" SIVID_TEXT_OF(SIVID_DECL);
 #ifdef SIVID_COMPILED
-    CHECK(specifier.empty());
+    CHECK(specifier.find("inline") == std::string::npos);
 #else
     CHECK(specifier == "inline");
 #endif
