@@ -176,7 +176,7 @@ TEST_CASE("a full disk leaves the former result whole") {
                                              "--quiet"};
     REQUIRE(run(arguments).code == 0);
     auto const before = files_of(out);
-    REQUIRE(before.size() == 6); // products.csv and certificates.csv among them
+    REQUIRE(before.size() == 7); // products.csv, certificates.csv, report.page.json among them
     for (::rlim_t const room : {1000u, 12000u, 30000u}) {
         child const full(arguments, folder.path(), room);
         auto const code = full.wait_at_most(60);
