@@ -20,6 +20,7 @@
 #include <sivid/number/taylor_model.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/kept_decimal.hpp>
+#include <sivid/number/text/nearest_name.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 #include <sivid/number/text/needed_given.hpp>
 #include <sivid/number/text/sha256.hpp>

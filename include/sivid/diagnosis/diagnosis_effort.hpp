@@ -17,14 +17,15 @@
 
 namespace sivid {
 
-/// What one step of a diagnosis may spend. The boxes end it on a machine that keeps up, at the same
-/// place whatever its speed and load; the share of all time ends it on any other.
+/// What one step of a diagnosis may spend: boxes, and a share of the whole budget, which counts
+/// work
+/// (`work_limit`). Both end it at the same place on any machine.
 struct step_effort {
     std::size_t boxes = 0; ///< of parameters, each with all experiments
-    double share = 0;      ///< of the time for the whole diagnosis
+    double share = 0;      ///< of the budget of the whole diagnosis
 };
 
-/// The clock of a diagnosis and what asks whether it may go on.
+/// The budget of a diagnosis and what asks whether it may go on.
 class diagnosis_effort {
 public:
     /// @param seconds   for everything

@@ -596,6 +596,7 @@ void parametric_flow<Model>::carry_generators(trial const& t, C const& length,
     bool const all = side_by_side::all(carried);
     image_.resize(n);
     std::vector<unsigned char> present(n);
+    double work = 0;
     for (auto& g : set_.columns) {
         for (std::size_t l = 0; l < n; ++l) {
             present[l] = side_by_side::all(g[l].norm() == C(0.0)) ? 0 : 1;
@@ -605,7 +606,7 @@ void parametric_flow<Model>::carry_generators(trial const& t, C const& length,
             for (std::size_t l = 0; l < n; ++l) {
                 if (present[l] == 0 || !flow_->sensitive(i, l)) continue;
                 sum.add(v[i * n + l], g[l]);
-                work_clock::count(1, g[l].shape().product_work);
+                work += g[l].shape().product_work;
             }
             sum.finish();
             if (!all) image_[i] = select(carried, image_[i], g[i]);
@@ -614,6 +615,7 @@ void parametric_flow<Model>::carry_generators(trial const& t, C const& length,
         }
         g.swap(image_);
     }
+    work_clock::count(1, work);
 }
 
 /// What uncertain inputs may add goes into new generators.

@@ -167,7 +167,7 @@ private:
         bool const input = found != names->items.end() && found->second.what == kind::input;
         if (!input && (found == names->items.end() || found->second.what != kind::constant))
             source->fail(s.position, "'" + s.name + "' is no input and no constant of the model",
-                         nearest_name(s.name, of_kinds(kind::input, kind::constant)));
+                         name_hint(s.name, of_kinds(kind::input, kind::constant)));
         in = found->second.in;
         return input ? scope.input(s.name) : scope.constant(s.name);
     }
@@ -195,7 +195,7 @@ private:
             in = unit(y.unit);
             return scope.channel(name);
         }
-        source->fail(position, "'" + name + "' is no output", nearest_name(name, known));
+        source->fail(position, "'" + name + "' is no output", name_hint(name, known));
     }
 };
 
@@ -451,7 +451,7 @@ private:
             std::vector<std::string> known;
             for (auto const& k : kinds::all) known.emplace_back(k.name);
             source_->fail(of.find("kind")->value, "unknown kind of effect " + in_quotes(wanted),
-                          nearest_name(wanted, known));
+                          name_hint(wanted, known));
         }
         for (auto const* key : {"of", "prior", found->more})
             if (key != nullptr && of.find(key) == nullptr)
@@ -532,7 +532,7 @@ private:
                 }
                 if (!found)
                     source_->fail(position, in_quotes(name) + " is no " + kind,
-                                  nearest_name(name, known));
+                                  name_hint(name, known));
             }
             return result;
         };

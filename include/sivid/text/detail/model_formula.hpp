@@ -196,7 +196,7 @@ private:
         auto const op = model_detail::function_named(name);
         if (!op)
             words_.fail_at(position, "unknown function '" + name + "'",
-                           nearest_name(name, functions()) + "; products need a *");
+                           name_hint(name, functions()) + "; products need a *");
         auto of = sum();
         if (!is_binary(*op)) {
             words_.need(")", "close the bracket: this function takes one number");

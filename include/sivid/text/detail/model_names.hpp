@@ -73,8 +73,7 @@ struct model_names {
                                     std::size_t position) const {
         auto const found = items.find(name);
         if (found == items.end() || found->second.what != kind::state)
-            source.fail(position, "'" + name + "' is no state",
-                        nearest_name(name, all(kind::state)));
+            source.fail(position, "'" + name + "' is no state", name_hint(name, all(kind::state)));
         return found->second;
     }
     /// The unit of the rate of something.
@@ -151,7 +150,7 @@ private:
         if (found == names_->items.end()) {
             auto known = names_->all();
             known.insert(known.begin(), also_.begin(), also_.end());
-            source_->fail(n.begin, "unknown name '" + n.name + "'", nearest_name(n.name, known));
+            source_->fail(n.begin, "unknown name '" + n.name + "'", name_hint(n.name, known));
         }
         auto const& item = found->second;
         if (item.what == kind::part) return part(item.index, n.begin);

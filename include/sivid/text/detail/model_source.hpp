@@ -4,6 +4,8 @@
 
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/model/detail/formula_words.hpp>
+#include <sivid/number/text/joined.hpp>
+#include <sivid/number/text/nearest_name.hpp>
 #include <sivid/text/model_text_error.hpp>
 
 #include <algorithm>
@@ -98,39 +100,12 @@ private:
     std::vector<std::size_t> lines_; ///< where they begin
 };
 
-/// How many characters have to be replaced, added or taken away to make b of a.
-[[nodiscard]] inline std::size_t edits_between(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        auto corner = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            auto const replaced = corner + (a[i] == b[j] ? 0 : 1);
-            corner = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
-
 /// "did you mean 'kt'?", or the whole list where nothing is like the name.
-[[nodiscard]] inline std::string nearest_name(std::string const& name,
-                                              std::vector<std::string> const& known) {
-    constexpr std::size_t longest = 60;
-    std::size_t least = name.size() > longest ? 0 : 1 + (name.size() + 1) / 3;
-    std::string nearest, all;
-    for (auto const& k : known) {
-        all += (all.empty() ? "" : ", ") + k;
-        if (least == 0 || k.size() > longest) continue;
-        auto const edits = edits_between(name, k);
-        if (edits < least) {
-            least = edits;
-            nearest = k;
-        }
-    }
-    return nearest.empty() ? "known: " + (all.empty() ? "nothing" : all)
-                           : "did you mean '" + nearest + "'?";
+[[nodiscard]] inline std::string name_hint(std::string const& name,
+                                           std::vector<std::string> const& known) {
+    auto const nearest = nearest_name(name, known);
+    if (!nearest.empty()) return "did you mean '" + nearest + "'?";
+    return "known: " + (known.empty() ? "nothing" : joined(known));
 }
 
 } // namespace sivid::text_detail

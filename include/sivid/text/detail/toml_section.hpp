@@ -134,7 +134,7 @@ public:
                 source_->fail(e.key,
                               "unknown key " + in_quotes(e.name) +
                                   (where_.empty() ? "" : " in " + where_),
-                              nearest_name(e.name, {known.begin(), known.end()}));
+                              name_hint(e.name, {known.begin(), known.end()}));
     }
     /// A table within; nothing where it is not.
     [[nodiscard]] std::optional<toml_section> section(std::string const& name) const {
