@@ -64,8 +64,8 @@ struct model_names {
     /// All that are of this kind, or all.
     [[nodiscard]] std::vector<std::string> all(std::optional<kind> of = {}) const {
         std::vector<std::string> names;
-        for (auto const& [name, item] : items)
-            if (!of || item.what == *of) names.push_back(name);
+        for (auto const& [name, its] : items)
+            if (!of || its.what == *of) names.push_back(name);
         return names;
     }
     /// The state of this name. @throws model_text_error  for another name
