@@ -6,7 +6,7 @@
 #include <sivid/enclosure/normalised_unknowns.hpp>
 #include <sivid/number/polynomial/taylor_model_functions.hpp>
 #include <sivid/space/box.hpp>
-#include <sivid/space/frame/detail/common_frame.hpp>
+#include <sivid/space/frame/detail/lane_frame.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -44,9 +44,8 @@ class framed_box {
 public:
     /// @param first, last  of the columns g_j, with an entry for each state
     /// @param sizes  one for each state: the frame is orthogonal in `fair_units` of them
-    /// @param score  sizes of directions in common, see `common_frame`
-    template <class Iterator, class Score>
-    framed_box(Iterator first, Iterator last, std::vector<C> const& sizes, Score const& score)
+    template <class Iterator>
+    framed_box(Iterator first, Iterator last, std::vector<C> const& sizes)
         : unit_(fair_units(sizes)), sides_(sizes.size()) {
         auto const n = sizes.size();
         std::vector<std::vector<C>> directions;
@@ -59,7 +58,7 @@ public:
                 up = std::max(up, (*g)[i].shape().up);
             }
         }
-        frame_ = common_frame(std::move(directions), score);
+        frame_ = make_lane_frame(std::move(directions));
         for (auto g = first; g != last; ++g) add(*g, up);
         for (auto& s : sides_) s = s * (1 + 8 * static_cast<double>(count + 4) * Model::unit);
     }
@@ -238,7 +237,7 @@ private:
     /// @given  count is at least the number of states
     /// @returns how many columns stand for them, at most one a state
     std::size_t box_together(std::size_t first, std::size_t count, std::vector<C> const& unit,
-                             std::vector<C>& lost, mask used);
+                             std::vector<C>& lost);
     static C known(C const& x) {
         return side_by_side::select(x >= C(0.0), x, C(std::numeric_limits<double>::infinity()));
     }
@@ -327,14 +326,14 @@ void parametric_set<Model>::reduce(std::size_t most, std::vector<C>& lost, mask 
         groups_.erase(groups_.begin() + static_cast<std::ptrdiff_t>(older) + 1);
         std::size_t shorter = 0; // these come first
         for (std::size_t k = first; k < first + both.columns; ++k) {
-            if (score[k] > longest) continue;
+            if (score[k] > longest * (1 + 1e-9)) continue; // no rounding decides
             std::swap(score[k], score[first + shorter]);
             columns[k].swap(columns[first + shorter]);
             ++shorter;
         }
         // Fewer are not worth what boxing loses.
         if (shorter < 3 * n && (groups_.size() > 1 || shorter <= n)) continue;
-        auto const made = box_together(first, shorter, unit, lost, used);
+        auto const made = box_together(first, shorter, unit, lost);
         score.erase(score.begin() + static_cast<std::ptrdiff_t>(first + made),
                     score.begin() + static_cast<std::ptrdiff_t>(first + shorter));
         both.columns -= shorter - made;
@@ -343,12 +342,10 @@ void parametric_set<Model>::reduce(std::size_t most, std::vector<C>& lost, mask 
 
 template <class Model>
 std::size_t parametric_set<Model>::box_together(std::size_t first, std::size_t count,
-                                                std::vector<C> const& unit, std::vector<C>& lost,
-                                                mask used) {
+                                                std::vector<C> const& unit, std::vector<C>& lost) {
     auto const begin = columns.begin() + static_cast<std::ptrdiff_t>(first);
     enclosure_detail::framed_box<Model> const around(
-        begin, begin + static_cast<std::ptrdiff_t>(count), unit,
-        [&](auto const& x) { return shares(x, used); });
+        begin, begin + static_cast<std::ptrdiff_t>(count), unit);
     std::size_t made = 0;
     for (std::size_t k = 0; k < centre.size(); ++k) {
         if (side_by_side::all(around.side(k) == C(0.0))) continue;

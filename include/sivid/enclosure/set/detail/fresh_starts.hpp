@@ -59,8 +59,7 @@ with_fresh_starts(parametric_set<taylor_model<double>> const& set, std::size_t k
         }
     }
     if (moving.empty()) moving.emplace_back(n); // a set that does not vary but by parameters
-    framed_box<model> const around(moving.begin(), moving.end(), unit,
-                                   [](auto const& squares) { return squares; });
+    framed_box<model> const around(moving.begin(), moving.end(), unit);
     parametric_set<model> result(n, shape);
     result.time = set.time;
     for (std::size_t i = 0; i < n; ++i) {

@@ -2,7 +2,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
-#include <sivid/space/frame/detail/common_frame.hpp>
+#include <sivid/space/frame/detail/lane_frame.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -19,15 +19,6 @@ namespace {
 using eight = lanes<8>;
 using matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-
-/// The order of one lane.
-auto lane_sizes(std::size_t lane) {
-    return [lane](std::vector<eight> const& x) {
-        std::vector<double> sizes;
-        for (auto const& v : x) sizes.push_back(v[lane]);
-        return sizes;
-    };
-}
 
 matrix axes_of(lane_frame<eight> const& frame, std::size_t lane) {
     auto const n = static_cast<Eigen::Index>(frame.axis.size());
@@ -60,7 +51,7 @@ TEST_CASE("the defect bounds what the transpose lacks of an inverse") {
                 }
             }
         }
-        auto const frame = common_frame(directions, lane_sizes(d.below(5)));
+        auto const frame = make_lane_frame(directions);
         REQUIRE(frame.axis.size() == n);
         for (std::size_t l = 0; l < 8; ++l) {
             auto const q = axes_of(frame, l);
@@ -86,10 +77,42 @@ TEST_CASE("the defect bounds what the transpose lacks of an inverse") {
 
 TEST_CASE("the first axis is the longest direction") {
     std::vector<std::vector<double>> const directions{{1, 1}, {-6, 8}, {0, 2}};
-    auto const frame =
-        common_frame(directions, [](std::vector<double> const& sizes) { return sizes; });
+    auto const frame = make_lane_frame(directions);
     CHECK_THAT(frame.axis[0][0], WithinAbs(-0.6, 1e-15));
     CHECK_THAT(frame.axis[0][1], WithinAbs(0.8, 1e-15));
     CHECK_THAT(std::abs(frame.axis[1][0]), WithinAbs(0.8, 1e-15));
     CHECK(frame.defect < 1e-13);
+}
+
+TEST_CASE("each lane has its own frame, and no rounding chooses it") {
+    draws d(6);
+    for (int trial = 0; trial < 20; ++trial) {
+        // A direction is 0 in the lanes that were not there when it came up.
+        std::vector<std::vector<eight>> all(6, std::vector<eight>(2)), nudged;
+        for (std::size_t j = 0; j < all.size(); ++j)
+            for (std::size_t l = 0; l < 8; ++l)
+                if ((j + l) % 3 != 0)
+                    for (auto& x : all[j]) x.set(l, d.uniform(-1, 1));
+        nudged = all;
+        for (auto& v : nudged)
+            for (auto& x : v)
+                for (std::size_t l = 0; l < 8; ++l) x.set(l, x[l] * (1 + 1e-14 * d.uniform(-1, 1)));
+        auto const together = make_lane_frame(all), near = make_lane_frame(nudged);
+        for (std::size_t l = 0; l < 8; ++l) {
+            std::vector<std::vector<double>> own;
+            for (auto const& v : all) own.push_back({v[0][l], v[1][l]});
+            auto const alone = make_lane_frame(own);
+            for (std::size_t k = 0; k < 2; ++k)
+                for (std::size_t i = 0; i < 2; ++i) {
+                    CHECK(together.axis[k][i][l] == alone.axis[k][i]);
+                    CHECK_THAT(near.axis[k][i][l], WithinAbs(alone.axis[k][i], 1e-11));
+                }
+        }
+    }
+}
+
+TEST_CASE("of equally long directions the first is an axis") {
+    std::vector<std::vector<double>> const directions{{3, 4}, {4 * (1 + 1e-15), 3}};
+    auto const frame = make_lane_frame(directions);
+    CHECK_THAT(frame.axis[0][0], WithinAbs(0.6, 1e-14));
 }

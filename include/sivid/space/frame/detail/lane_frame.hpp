@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef SIVID_SPACE_FRAME_DETAIL_COMMON_FRAME_HPP
-#define SIVID_SPACE_FRAME_DETAIL_COMMON_FRAME_HPP
+#ifndef SIVID_SPACE_FRAME_DETAIL_LANE_FRAME_HPP
+#define SIVID_SPACE_FRAME_DETAIL_LANE_FRAME_HPP
 
 #include <sivid/number/pack/lanes.hpp>
 
@@ -62,18 +62,41 @@ template <class C>
     return rho * (1 + 1e-12) + 4.0 * static_cast<double>(n * n * n) * unit;
 }
 
+/// In each lane the longest of the vectors, which is 0 there from then on. Of nearly equal ones the
+/// first, so that no rounding decides.
+/// @param squares  of their lengths
+/// @returns it, and the square of its length
+template <class C>
+[[nodiscard]] std::pair<std::vector<C>, C> take_longest(std::vector<std::vector<C>>& vectors,
+                                                        std::vector<C> const& squares) {
+    using side_by_side = lane_traits<C>;
+    std::vector<C> longest(vectors.front().size());
+    C square{}, which(-1.0);
+    for (std::size_t j = 0; j < vectors.size(); ++j) {
+        auto const longer = squares[j] > square * (1 + 1e-9);
+        square = side_by_side::select(longer, squares[j], square);
+        which = side_by_side::select(longer, C(static_cast<double>(j)), which);
+    }
+    for (std::size_t j = 0; j < vectors.size(); ++j) {
+        auto const taken = which == C(static_cast<double>(j));
+        for (std::size_t i = 0; i < longest.size(); ++i) {
+            longest[i] = side_by_side::select(taken, vectors[j][i], longest[i]);
+            vectors[j][i] = side_by_side::select(taken, C(0.0), vectors[j][i]);
+        }
+    }
+    return {std::move(longest), square};
+}
+
 } // namespace space_detail
 
-/// Gram-Schmidt, twice, along the longest of the given directions, in the same order in all lanes.
+/// Gram-Schmidt, twice, along the longest of the given directions, in each lane its own.
 /// Where they do not span the space, or numbers are not finite, unit vectors take their place.
-/// @param score  vector of C -> vector of double: common sizes of lengths (a choice, no bound)
 /// @guarantee  `defect`: with \f$ Q^T Q = 1 + R \f$, \f$ \|R\|_\infty \le \rho < 1 \f$,
 ///   \f$ Q^{-1} = (1+R)^{-1} Q^T \f$ and the difference is at most \f$ \rho/(1-\rho) \f$ of
 ///   \f$ Q^T g \f$ in the maximum norm. Lanes in which that fails get the identity.
 /// @cost  O(m n^2) for m directions of n components
-template <class C, class Score>
-[[nodiscard]] lane_frame<C> common_frame(std::vector<std::vector<C>> directions,
-                                         Score const& score) {
+template <class C>
+[[nodiscard]] lane_frame<C> make_lane_frame(std::vector<std::vector<C>> directions) {
     using side_by_side = lane_traits<C>;
     using namespace space_detail;
     auto const n = directions.empty() ? 0 : directions.front().size();
@@ -94,24 +117,15 @@ template <class C, class Score>
         squares.push_back(little * little);
     }
     lane_frame<C> frame;
-    std::vector<bool> taken(directions.size(), false);
     for (std::size_t k = 0; k < n; ++k) {
-        auto const sizes = score(squares);
-        std::size_t best = directions.size();
-        for (std::size_t j = 0; j < directions.size(); ++j) {
-            if (!taken[j] && (best == directions.size() || sizes[j] > sizes[best])) best = j;
-        }
-        taken[best] = true;
-        auto q = directions[best];
-        normalise(q, squares[best]);
+        auto [q, square] = take_longest(directions, squares);
+        normalise(q, square);
         for (auto const& p : frame.axis) remove_share(q, p);
         normalise(q, dot(q, q));
         for (std::size_t j = 0; j < directions.size(); ++j) {
-            if (taken[j]) continue;
             remove_share(directions[j], q);
             squares[j] = dot(directions[j], directions[j]);
         }
-        squares[best] = 0.0;
         frame.axis.push_back(std::move(q));
     }
     C const rho = orthogonality_defect(frame.axis);
