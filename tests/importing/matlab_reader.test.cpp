@@ -69,6 +69,27 @@ std::string sample(bool little) {
         w.element(99, "unknown element"));
 }
 
+/// t and n, two columns, in a file of version 7.3.
+std::string sample_73() {
+    temporary_folder const folder;
+    auto const name = (folder.path() / "a.mat").string();
+    std::vector<double> t{0, 0.1, 0.25};
+    std::vector<std::int64_t> n{9007199254740993, -5};
+    auto* const mat = Mat_CreateVer(name.c_str(), nullptr, MAT_FT_MAT73);
+    REQUIRE(mat != nullptr);
+    auto const write = [&](char const* of, matio_classes c, matio_types type, std::size_t rows,
+                           void* data) {
+        std::size_t dims[] = {rows, 1};
+        auto* const v = Mat_VarCreate(of, c, type, 2, dims, data, 0);
+        Mat_VarWrite(mat, v, MAT_COMPRESSION_NONE);
+        Mat_VarFree(v);
+    };
+    write("t", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, t.data());
+    write("n", MAT_C_INT64, MAT_T_INT64, 2, n.data());
+    Mat_Close(mat);
+    return folder.read("a.mat");
+}
+
 } // namespace
 
 TEST_CASE("variables of both byte orders, exactly") {
@@ -164,23 +185,7 @@ TEST_CASE("compressed variables are read, and a changed bit in one is seen") {
 }
 
 TEST_CASE("files of version 7.3 are read") {
-    temporary_folder const folder;
-    auto const name = (folder.path() / "a.mat").string();
-    std::vector<double> t{0, 0.1, 0.25};
-    std::vector<std::int64_t> n{9007199254740993, -5};
-    auto* const mat = Mat_CreateVer(name.c_str(), nullptr, MAT_FT_MAT73);
-    REQUIRE(mat != nullptr);
-    auto const write = [&](char const* of, matio_classes c, matio_types type, std::size_t rows,
-                           void* data) {
-        std::size_t dims[] = {rows, 1};
-        auto* const v = Mat_VarCreate(of, c, type, 2, dims, data, 0);
-        Mat_VarWrite(mat, v, MAT_COMPRESSION_NONE);
-        Mat_VarFree(v);
-    };
-    write("t", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, t.data());
-    write("n", MAT_C_INT64, MAT_T_INT64, 2, n.data());
-    Mat_Close(mat);
-    auto const text = folder.read("a.mat");
+    auto const text = sample_73();
     auto const file = read(text);
     REQUIRE(file.variables.size() == 2);
     CHECK(find(file, "t")->about == "double 3x1");
@@ -249,4 +254,17 @@ TEST_CASE("damaged MATLAB files are refused or read, never anything else") {
     }
     CHECK(good > 70);
     CHECK(bad > 200);
+}
+
+TEST_CASE("damaged files of version 7.3 end no process") {
+    auto const whole = sample_73();
+    std::mt19937_64 random{73};
+    int bad = 0;
+    for (int i = 0; i < 400; ++i) {
+        auto text = whole;
+        for (auto times = 1 + random() % 6; times > 0; --times)
+            text[520 + random() % (text.size() - 520)] = static_cast<char>(random());
+        bad += refused(text) != "no error" ? 1 : 0;
+    }
+    CHECK(bad > 10);
 }

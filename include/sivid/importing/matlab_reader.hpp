@@ -7,6 +7,7 @@
 
 #include <sivid/importing/table/detail/whole_level5.hpp>
 #include <sivid/importing/table/recorded_files.hpp>
+#include <sivid/io/detail/problem_apart.hpp>
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/text/text_file.hpp>
 
@@ -34,8 +35,9 @@ class matlab_reader {
     };
 
 public:
-    explicit matlab_reader(std::filesystem::path const& file) : result_{file.string(), {}} {
-        require_whole(read_text(file));
+    explicit matlab_reader(std::filesystem::path const& file, std::string_view text)
+        : result_{file.string(), {}} {
+        require_whole(text);
         mat_.reset(Mat_Open(result_.name.c_str(), MAT_ACC_RDONLY));
         if (!mat_) fail("it is cut or damaged");
     }
@@ -50,18 +52,24 @@ public:
         return std::move(result_);
     }
 
+    /// Version 7.3.
+    [[nodiscard]] static bool is_hdf(std::string_view text) {
+        constexpr std::string_view hdf = "\x89HDF\r\n";
+        return text.size() > 520 && text.substr(512).starts_with(hdf);
+    }
+    [[noreturn]] static void fail(std::filesystem::path const& file, std::string const& problem) {
+        throw input_error{
+            {.file = file.string()}, problem, "save it again, with save -v6, -v7 or -v7.3"};
+    }
+
 private:
     static constexpr std::size_t deepest = 8;
 
-    [[noreturn]] void fail(std::string const& problem) const {
-        throw input_error{
-            {.file = result_.name}, problem, "save it again, with save -v6, -v7 or -v7.3"};
-    }
+    [[noreturn]] void fail(std::string const& problem) const { fail(result_.name, problem); }
 
-    /// Of level 5 or of version 7.3 (HDF5, which libmatio reads by a library that checks sizes).
+    /// Of level 5 or of version 7.3.
     void require_whole(std::string_view text) const {
-        constexpr std::string_view hdf = "\x89HDF\r\n";
-        if (text.size() > 520 && text.substr(512).starts_with(hdf)) return;
+        if (is_hdf(text)) return;
         auto const order = text.size() < whole_level5::head ? "" : text.substr(126, 2);
         if (order != "IM" && order != "MI") fail("no MATLAB file of level 5 or of version 7.3");
         if (text[order == "IM" ? 125 : 124] != 1)
@@ -167,7 +175,14 @@ private:
 /// @throws input_error  for other formats and for damaged files
 /// @cost  linear in the size, inflated
 [[nodiscard]] inline matlab_file read_matlab(std::filesystem::path const& file) {
-    return matlab_reader{file}.read();
+    auto const text = read_text(file);
+    auto const read = [&] { return matlab_reader{file, text}.read(); };
+    // Some damaged files end the HDF5 library by a signal, or keep it busy for ever.
+    if (matlab_reader::is_hdf(text)) {
+        if (auto const problem = problem_apart([&] { (void)read(); }))
+            matlab_reader::fail(file, *problem);
+    }
+    return read();
 }
 
 } // namespace sivid
