@@ -2,6 +2,7 @@
 #include <sivid/decision/measurement_ranking.hpp>
 
 #include "support/catch.hpp"
+#include "support/epidemic.hpp"
 #include "support/models.hpp"
 #include "support/products.hpp"
 #include "support/random.hpp"
@@ -244,4 +245,20 @@ TEST_CASE("growth is that of what parameters reach where products share a factor
         support::with_shared_factor(between(1, 2), between(3.9, 4), between(0.5, 1.5)), patient);
     CHECK(none.explained == sivid::verdict::inconsistent);
     CHECK(none.groups.empty());
+}
+
+TEST_CASE("contractors bound a growth where runs over the prior say nothing") {
+    auto const p = support::infection(1e4, 1);
+    sivid::measurement_group const last{.experiment = 0, .from = 8};
+    sivid::measurement_ranking_options options{.seconds = 1e6, .boxes = 2000, .accuracy = 0.5};
+    auto const found = sivid::rank_measurements(p, options, {last}).groups.at(0);
+    CHECK(found.growth.lower() >= 1);
+    CHECK(found.growth.upper() < 10);
+    auto narrow = p;
+    narrow.prior[0] = sivid::interval(0, 2);
+    auto const near = sivid::rank_measurements(narrow, options, {last}).groups.at(0);
+    CHECK(near.growth.lower() <= found.growth.upper());
+    CHECK(found.growth.lower() <= near.growth.upper());
+    options.strategy = {};
+    CHECK_FALSE(sivid::rank_measurements(p, options, {last}).groups.at(0).growth.upper() < 10);
 }

@@ -2,6 +2,7 @@
 #include <sivid/paving/inflation.hpp>
 
 #include "support/catch.hpp"
+#include "support/epidemic.hpp"
 #include "support/inflations.hpp"
 #include "support/sweep.hpp"
 
@@ -308,4 +309,30 @@ TEST_CASE("a part with fewer measurements than outliers may be explained by anyt
     REQUIRE(first.experiments[0].measurements.size() == 1);
     CHECK(first.experiments[0].outliers == 1);
     CHECK(bound_inflation(first, nullptr, brief()).value.upper() == 0);
+}
+
+TEST_CASE("contractors bound the inflation where runs over the prior say nothing") {
+    auto const narrow = bound_inflation(support::infection(1.5, 1.65), nullptr, brief());
+    REQUIRE(narrow.value.lower() > 2);
+    for (double const most : {100., 1e7}) {
+        CAPTURE(most);
+        auto const found = bound_inflation(support::infection(most, 1.65), nullptr, brief());
+        CHECK(found.value.lower() > 2);
+        CHECK(found.value.upper() < 2.5);
+        CHECK(found.value.lower() <= narrow.value.upper());
+        CHECK(narrow.value.lower() <= found.value.upper());
+        CHECK(found.hull[0].upper() < 2);
+        CHECK(contains(found.hull, found.witness->parameters));
+
+        auto alone = brief(0.5);
+        alone.strategy = {};
+        CHECK_FALSE(bound_inflation(support::infection(most, 1.65), nullptr, alone).value.lower() > 1);
+
+        auto const explained = bound_inflation(support::infection(most, 1), nullptr, brief());
+        CHECK(explained.value.upper() < 1);
+        CHECK(contains(explained.hull, std::vector<double>{0.5, 0.3}));
+    }
+    auto only = brief();
+    only.only_verdict = true;
+    CHECK(bound_inflation(support::infection(1e7, 8), nullptr, only).value.lower() > 1);
 }

@@ -6,6 +6,7 @@
 #include <sivid/decision/ranking/measurement_group.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/paving/run_options.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 #include <sivid/paving/verdict.hpp>
 
 #include <cstddef>
@@ -25,6 +26,8 @@ struct measurement_ranking_options {
     std::size_t times = 4; ///< parts of the time that are compared
     run_options run{};
     std::function<bool()> keep_going{}; ///< false ends the work; what is proved stays proved
+    /// What is tried before each search.
+    sivid::strategy strategy = default_strategy();
 };
 
 /// What a group of measurements is worth.

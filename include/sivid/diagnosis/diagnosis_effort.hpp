@@ -4,6 +4,7 @@
 
 #include <sivid/paving/inflation.hpp>
 #include <sivid/paving/inflation/observer_effort.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -31,10 +32,13 @@ public:
     /// @param seconds   for everything
     /// @param test      how boxes are enclosed
     /// @param progress  called with what is being done; false ends the diagnosis; may be empty
+    /// @param how       what is tried on a problem, beside searches
     diagnosis_effort(double seconds, feasibility_test_options test,
-                     std::function<bool(std::string const&)> progress)
+                     std::function<bool(std::string const&)> progress,
+                     strategy how = default_strategy(search_kind::parts))
         : all_(seconds),
           progress_(std::move(progress)),
+          strategy_(std::move(how)),
           limit_(seconds, test.keep_going),
           going_(std::numeric_limits<double>::infinity(), [this] { return limit_() && wanted(); }),
           test_(limited(std::move(test), going_)) {}
@@ -81,6 +85,7 @@ public:
         result.test = test_;
         result.seconds = seconds_of(e);
         result.boxes = e.boxes * (p.experiments.size() + 1);
+        result.strategy = strategy_;
         return result;
     }
     /// A refutation by interval observers that spends no more.
@@ -110,6 +115,7 @@ private:
 
     double all_;
     std::function<bool(std::string const&)> progress_;
+    strategy strategy_;
     std::string doing_;
     std::mutex asking_;
     std::atomic<double> asked_ = 0; ///< when

@@ -9,6 +9,8 @@
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/judge/feasibility_test_options.hpp>
+#include <sivid/paving/response/misfit.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 #include <sivid/space/box.hpp>
 
 #include <algorithm>
@@ -34,6 +36,8 @@ struct inflation_options {
     bool only_verdict = false;        ///< stop as soon as lower > 1 or upper <= 1
     std::function<bool()> keep_going; ///< false stops the search with what is proved until then
     feasibility_test_options test;
+    /// Asked about grown bounds where runs end early.
+    sivid::strategy strategy = default_strategy();
 };
 
 /// What was proved about the inflation of a problem.
@@ -69,6 +73,15 @@ template <class Keep>
         if (!e.measurements.empty()) kept.push_back(std::move(e));
     }
     problem.experiments = std::move(kept);
+    return problem;
+}
+
+/// The problem with all measured bounds `level` times as wide.
+/// @guarantee  every parameter with an inflation of at most `level` explains its data
+[[nodiscard]] inline identification_problem with_bounds_grown(identification_problem problem,
+                                                              double level) {
+    for (auto& e : problem.experiments)
+        for (auto& m : e.measurements) m.bound = grown(m.bound, level);
     return problem;
 }
 

@@ -9,6 +9,7 @@
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/invert.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -133,6 +134,7 @@ private:
         result.search.boxes = options_->boxes;
         result.search.keep_outside = false;
         result.search.keep_going = limit_;
+        result.strategy = options_->strategy;
         result.drawn_boxes = 1000; // of products: nothing but whether any is reached
         return result;
     }
@@ -157,7 +159,16 @@ private:
     [[nodiscard]] std::size_t leave_out(measurement_worth& worth, work_limit const& limit) const {
         feasibility_test_options test;
         static_cast<run_options&>(test) = options_->run;
-        others_leave difference(posed(), worth.what, limited(test, limit), starts_);
+        test = limited(std::move(test), limit);
+        work_limit const first(0.3 * limit.seconds(), limit);
+        inquiry asked(others_leave::without(posed(), worth.what), limited(test, first), {}, first);
+        contract(options_->strategy, asked);
+        if (asked.empty()) {
+            worth.growth = interval(1.0);
+            return asked.integrations();
+        }
+        others_leave difference(posed(), worth.what, std::move(test), starts_);
+        if (asked.narrowed()) difference.set_rest(asked.problem().prior);
         inversion_options search;
         search.accuracy_of_hull = true;
         search.sufficient_ratio = 1;
@@ -176,7 +187,7 @@ private:
         worth.growth = growth_of(
             set(), map != nullptr ? reached_of(more.paving, *map, problem_->prior) : more.paving);
         worth.boxes = more.tested;
-        return difference.integrations();
+        return asked.integrations() + difference.integrations();
     }
 
     identification_problem const* problem_;

@@ -42,7 +42,7 @@ public:
     diagnostician(identification_problem base, std::vector<effect> catalogue,
                   diagnosis_options options)
         : options_(std::move(options)),
-          effort_(options_.seconds, options_.test, options_.progress) {
+          effort_(options_.seconds, options_.test, options_.progress, options_.strategy) {
         run_.base = std::move(base);
         run_.catalogue = std::move(catalogue);
         run_.base.require_valid_campaign();

@@ -11,6 +11,7 @@
 #include <sivid/paving/inflation/detail/inflation_search.hpp>
 #include <sivid/paving/judge/witness.hpp>
 #include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -34,7 +35,6 @@ public:
           everything_(box_explorer::without_limit(problem)),
           points_(everything_, test_within_time()),
           map_(reduction::find(problem, dependence_of(problem))),
-          search_(working(), test_within_time()),
           fit_(working(), [this] { return within_time(); }) {}
 
     [[nodiscard]] inflation_bound operator()(approximate_fit const* guess) {
@@ -49,16 +49,10 @@ public:
             if (upper_ > 1.001 * guess->inflation) try_witness(p, guess->starts);
         }
         if (!witness_) improve(mid(working().prior), starts);
-        search_.policy().propose = [this](inflation_relaxation const& found, bool complete) {
-            consider(found, complete);
-        };
-        while (search_.next() != nullptr && !finished()) {
-            search_.policy().target = target();
-            search_.step([this] { return within_time(); });
-            if (promise_) {
-                improve(promise_->point, promise_->starts);
-                promise_.reset();
-            }
+        begin_search(working());
+        while (search_->next() != nullptr && !finished()) {
+            step();
+            if (in_the_dark() && !finished()) ask_contractors();
         }
         return report();
     }
@@ -68,8 +62,73 @@ private:
     [[nodiscard]] identification_problem const& working() const {
         return map_ ? map_->problem() : *problem_;
     }
+    void begin_search(identification_problem const& problem) {
+        if (search_) spent_ += search_->integrations() + search_->tested();
+        search_.emplace(problem, test_within_time());
+        search_->policy().above = upper_;
+        search_->policy().propose = [this](inflation_relaxation const& found, bool complete) {
+            consider(found, complete);
+        };
+    }
+    void step() {
+        search_->policy().target = target();
+        search_->step([this] { return within_time(); });
+        if (!promise_) return;
+        improve(promise_->point, promise_->starts);
+        promise_.reset();
+    }
+    /// Runs end early and bound nothing, and contractors have not been asked of the witness, or of
+    /// one that was more than twice as bad.
+    [[nodiscard]] bool in_the_dark() const {
+        auto const* const next = search_->next();
+        return next != nullptr && !next->is_complete() && !(search_->lower() > 0) &&
+               !(asked_at_ && upper_ >= 0.5 * *asked_at_);
+    }
+    /// Asks contractors of bounds that have grown. Where they leave nothing at a level, the
+    /// inflation is larger; a witness is sought in what they leave at the next one. What does no
+    /// worse than it is in what they leave at its own: that is searched.
+    void ask_contractors() {
+        work_limit const own(0.3 * limit_.seconds(), [this] { return within_time(); });
+        double level = asked_at_ ? upper_ : std::nextafter(1.0, 2.0);
+        for (bool sought = false; level < upper_ && !sought && own() && within_limits();) {
+            auto const left = left_at(level, own);
+            sought = left && std::isfinite(improve_within(*left));
+            if (left && !narrowed(*left)) break;
+            if (!left) refuted_ = level;
+            if (!left && options_->only_verdict) return;
+            level = std::isfinite(upper_) ? std::sqrt(level * upper_) : 4 * level;
+        }
+        asked_at_ = upper_;
+        if (!std::isfinite(upper_) || finished()) return;
+        auto const left = left_at(upper_, own);
+        if (!left || !narrowed(*left)) return;
+        begin_search(*left);
+        improve_within(*left);
+    }
+    /// The problem with what contractors leave of its prior and starts at a level of the inflation.
+    [[nodiscard]] std::optional<identification_problem> left_at(double level,
+                                                                work_limit const& within) {
+        work_limit const own(0.5 * within.seconds(), within);
+        inquiry asked(with_bounds_grown(working(), level), limited(options_->test, own), {}, own);
+        contract(options_->strategy, asked);
+        spent_ += asked.integrations();
+        if (asked.empty()) return std::nullopt;
+        auto rest = working();
+        rest.prior = asked.problem().prior;
+        for (std::size_t e = 0; e < rest.experiments.size(); ++e)
+            rest.experiments[e].initial = asked.problem().experiments[e].initial;
+        return rest;
+    }
+    [[nodiscard]] bool narrowed(identification_problem const& rest) const {
+        bool same = subset(working().prior, rest.prior);
+        for (std::size_t e = 0; e < rest.experiments.size(); ++e)
+            same = same && subset(working().experiments[e].initial, rest.experiments[e].initial);
+        return !same;
+    }
+    /// Proved.
+    [[nodiscard]] double lower() const { return std::max(search_->lower(), refuted_); }
     [[nodiscard]] std::size_t work() const {
-        return search_.integrations() + search_.tested() + points_.integrations();
+        return spent_ + search_->integrations() + search_->tested() + points_.integrations();
     }
     [[nodiscard]] bool within_time() const {
         return limit_() && (!options_->keep_going || options_->keep_going());
@@ -81,10 +140,10 @@ private:
     /// Asked between steps: a step that work cut short would have worked in vain, and where it was
     /// cut would depend on the threads.
     [[nodiscard]] bool within_limits() const {
-        return work() < most_work_ && search_.bytes() <= options_->memory && within_time();
+        return work() < most_work_ && search_->bytes() <= options_->memory && within_time();
     }
     [[nodiscard]] bool finished() {
-        double const lower = search_.lower(); // meaningless within a step
+        double const lower = this->lower(); // meaningless within a step
         most_work_ = options_->boxes;
         bool const open = upper_ > 1 && !(lower > 1);
         bool const near = lower > 0.6 * upper_ && lower < 0.9 * upper_;
@@ -95,7 +154,7 @@ private:
     [[nodiscard]] double target() const {
         double const enough = (1 - options_->relative_width) * upper_;
         if (options_->only_verdict && enough > 1) return std::nextafter(1.0, 2.0);
-        return std::isfinite(enough) ? enough : std::max(1.0, 2 * search_.lower());
+        return std::isfinite(enough) ? enough : std::max(1.0, 2 * lower());
     }
 
     /// Keeps the best promise of a step, if it promises enough to be worth validated runs. Where
@@ -103,14 +162,27 @@ private:
     void consider(inflation_relaxation const& found, bool complete) {
         double const enough = (1 - 0.2 * options_->relative_width) * upper_;
         if (found.point.empty() || !(found.approximate_value < enough)) return;
-        if (!complete && witness_ && 30 * descents_ > search_.tested()) return;
+        if (!complete && witness_ && 30 * descents_ > search_->tested()) return;
         if (promise_ && !(found.approximate_value < promise_->approximate_value)) return;
         promise_ = found;
     }
     /// Descends from a point of the working problem and verifies where that leads.
     void improve(std::vector<double> const& point, std::vector<std::vector<double>> const& starts) {
+        improve(fit_, point, starts);
+    }
+    /// Descends within what is left of the working problem.
+    /// @returns  the least inflation of a witness until now
+    double improve_within(identification_problem const& left) {
+        std::vector<std::vector<double>> starts;
+        for (auto const& e : left.experiments) starts.push_back(mid(e.initial));
+        approximate_fitter fit(left, [this] { return within_time(); });
+        improve(fit, mid(left.prior), starts);
+        return upper_;
+    }
+    void improve(approximate_fitter& fit, std::vector<double> const& point,
+                 std::vector<std::vector<double>> const& starts) {
         ++descents_;
-        auto const better = fit_({point, starts});
+        auto const better = fit({point, starts});
         if (better.parameters.empty()) {
             verify(point, starts);
         } else if (better.inflation < upper_) {
@@ -137,19 +209,19 @@ private:
         if (value.upper() < upper_) {
             upper_ = value.upper();
             witness_ = std::move(candidate);
-            search_.policy().above = upper_;
+            if (search_) search_->policy().above = upper_;
         }
     }
     [[nodiscard]] inflation_bound report() {
         inflation_bound result;
-        result.value = interval_traits<interval>::bounds(std::min(search_.lower(), upper_), upper_);
+        result.value = interval_traits<interval>::bounds(std::min(lower(), upper_), upper_);
         result.witness = std::move(witness_);
         box around;
-        for (auto const& b : search_.cover()) around = around.size() == 0 ? b : hull(around, b);
+        for (auto const& b : search_->cover()) around = around.size() == 0 ? b : hull(around, b);
         if (around.size() == 0) around = map_ ? map_->forward(problem_->prior) : problem_->prior;
         result.hull = map_ ? map_->backward(problem_->prior, around) : around;
-        result.boxes = search_.tested();
-        result.integrations = search_.integrations() + points_.integrations();
+        result.boxes = search_->tested();
+        result.integrations = spent_ + search_->integrations() + points_.integrations();
         result.seconds = clock_.spent();
         return result;
     }
@@ -161,9 +233,12 @@ private:
     identification_problem everything_;
     feasibility_test points_;
     std::optional<reduction> map_;
-    inflation_search search_;
+    std::optional<inflation_search> search_;
     approximate_fitter fit_;
     double upper_ = detail::infinity;
+    std::optional<double> asked_at_; ///< `upper_`, when contractors were asked
+    double refuted_ = 0;             ///< level at which contractors left nothing
+    std::size_t spent_ = 0;          ///< by contractors, and searches that are over
     std::size_t descents_ = 0;
     std::size_t most_work_ = std::max(options_->boxes, options_->further_boxes);
     std::optional<inflation_relaxation> promise_;

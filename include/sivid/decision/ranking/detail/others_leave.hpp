@@ -46,6 +46,9 @@ public:
     others_leave(others_leave const&) = delete;
     others_leave& operator=(others_leave const&) = delete;
 
+    /// The others leave nothing outside of this (trusted).
+    void set_rest(box rest) { others_.set_rest(std::move(rest)); }
+
     /// The problem in which a group's measurements may read anything.
     [[nodiscard]] static identification_problem without(identification_problem problem,
                                                         measurement_group const& group) {

@@ -17,6 +17,7 @@
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
 #include <sivid/paving/response/misfit.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -290,16 +291,18 @@ started_near(identification_problem posed, std::size_t fitted,
                                            inflation_options const& options, double seconds) {
     if (!std::isfinite(level) || start.size() == 0) return start;
     posed.experiments.resize(fitted);
-    for (auto& e : posed.experiments) {
-        for (auto& m : e.measurements) m.bound = grown(m.bound, level);
-    }
-    feasibility_test test(posed, options.test);
+    posed.prior = start;
+    work_limit const limit(seconds, options.test.keep_going);
+    inquiry asked(with_bounds_grown(std::move(posed), level), limited(options.test, limit), {},
+                  limit);
+    contract(options.strategy, asked);
+    if (asked.empty()) return start; // all is worse than the level
     inversion_options search{.accuracy_of_hull = true, .hull_gain = 0.02, .keep_outside = false};
-    search.seconds = seconds;
+    search.seconds = limit.left();
     search.boxes = options.boxes;
     search.memory = options.memory;
     search.keep_going = options.test.keep_going;
-    auto const paving = invert(test, start, search).paving;
+    auto const paving = invert(asked.test(), asked.problem().prior, search).paving;
     return paving.has_outer() ? intersect(paving.outer_hull(), start) : start;
 }
 
