@@ -6,30 +6,55 @@
 #include <sivid/app/robot_of_text.hpp>
 #include <sivid/text/read_model.hpp>
 
-#include <iostream>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
 
 constexpr char const* usage =
-    "sivid COMMAND MODEL.toml ...: proved identification and diagnosis with a model that is a "
-    "text\n"
-    "(docs/formats.md). Its commands:   sivid --help MODEL.toml\n"
-    "Options and an example of each:    sivid COMMAND MODEL.toml --help\n";
+    "Proved identification and diagnosis with a model that is a text (docs/formats.md):\n"
+    "  sivid COMMAND MODEL.toml ...\n"
+    "Options and an example of each command: sivid COMMAND --help";
+
+bool asks_for_help(std::string_view word) { return word == "--help" || word == "-h"; }
+
+/// Help needs no model: that of a robot without one.
+int show_help(int argc, char** argv) {
+    sivid::text_model none;
+    none.about = usage;
+    return sivid::app::run(sivid::app::robot_of_text("sivid", "MODEL.toml", none), argc, argv);
+}
+
+/// @throws bad_request  for what is none by its name, the word that usually follows
+sivid::text_model model_in(std::string const& file) {
+    bool const other = std::filesystem::is_directory(file) ||
+                       std::filesystem::path(file).extension() == ".json" ||
+                       file.compare(0, 1, "-") == 0;
+    if (other)
+        throw sivid::app::bad_request("'" + file +
+                                      "' stands where the model is expected; write sivid COMMAND "
+                                      "MODEL.toml ..., or sivid COMMAND --help");
+    return sivid::read_model(file);
+}
 
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 3) {
-        std::cout << usage;
-        return argc == 2 && std::string(argv[1]) == "--help" ? sivid::app::done
-                                                             : sivid::app::bad_input;
+    if (argc > 1 && (asks_for_help(argv[1]) || (argc > 2 && asks_for_help(argv[2]))))
+        return show_help(argc, argv);
+    if (argc < 3) { // no model: nothing is run, and what is missing is shown
+        std::string help = "--help";
+        std::vector<char*> words(argv, argv + argc);
+        words.insert(words.end(), {help.data(), nullptr});
+        show_help(argc + 1, words.data());
+        return sivid::app::bad_input;
     }
     std::optional<sivid::app::robot> robot;
     int const code = sivid::app::guarded("sivid", [&] {
-        robot = sivid::app::robot_of_text("sivid", argv[2], sivid::read_model(argv[2]));
+        robot = sivid::app::robot_of_text("sivid", argv[2], model_in(argv[2]));
         return sivid::app::done;
     });
     if (!robot) return code;

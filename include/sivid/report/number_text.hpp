@@ -199,7 +199,8 @@ SIVID_DECL std::string interval_text(range const& r, number_format f, rounding l
 /// Proved bounds as a reader sees them: three digits, outward; "at least 3.1", "at most 0.98".
 [[nodiscard]] SIVID_DECL std::string span_text(range const& r, int digits = 3);
 
-/// Proved bounds of an inflation, with enough digits that a gap is not rounded away.
+/// Proved bounds of an inflation, with up to seven digits so that a gap is not rounded away, else
+/// as "more than 1".
 [[nodiscard]] SIVID_DECL std::string inflation_text(range const& r);
 
 /// A number that is not proved, three digits.

@@ -433,7 +433,8 @@ private:
                                         [&](auto const& e) { return e.name == name; });
         if (found == problem_.experiments.end()) {
             throw bad_request("the data set has no scenario " + in_quotes(name) +
-                              " of the role fit; it has: " + joined_names(problem_.experiments));
+                              " of the role fit; it has: " + joined_names(problem_.experiments) +
+                              ". For another motion write a scenario file (sivid-scenario-1)");
         }
         scenario_ = found->name;
         about_ = "As recorded in " + dataset_ + ".";

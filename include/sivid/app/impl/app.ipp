@@ -21,6 +21,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -128,12 +129,26 @@ inline std::vector<unknown_parameter> unknown_from(robot const& r,
     return result;
 }
 
+/// Shows the file of a model where the program takes it, behind each command.
+class usage_with_model : public CLI::Formatter {
+public:
+    explicit usage_with_model(std::string file) : file_{std::move(file)} {}
+    std::string make_usage(CLI::App const* app, std::string name) const override {
+        bool const command = app->get_parent() != nullptr && !file_.empty();
+        return Formatter::make_usage(app, command ? name + " " + file_ : name);
+    }
+
+private:
+    std::string file_;
+};
+
 /// The program: what is parsed, then run by `action_`.
 class program {
 public:
     program(robot const& r, std::string command_line, ranks const& all)
         : of_{r}, line_{std::move(command_line)}, all_{&all}, app_{r.title, r.name} {
         app_.require_subcommand(1);
+        app_.formatter(std::make_shared<usage_with_model>(of_.file));
         for (auto const& u : r.prior) unknown_.push_back(u.name);
         for (auto const& v : r.variants) chosen_.push_back(v.choices.front());
         add_import();
@@ -543,7 +558,7 @@ private:
                       "identification")
             ->required();
         s->add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
-        add_scenario(*s, c.scenario, ", data:NAME for one of the data set");
+        add_scenario(*s, c.scenario, ", data:NAME for one of the data set that is not held out");
         s->get_option("--scenario")->required();
         s->add_option("--set", c.set,
                       "constants of the scenario, such as Ff=0.5, or ranges, such as Ff=0.3:0.7; "

@@ -55,6 +55,10 @@ inline int run_predict(robot const& r, decision_command const& c) {
                   << (is_finite(last) ? report::outward_text(last) : "no known bounds")
                   << (channel.unit == "1" ? "" : " " + channel.unit) << "\n";
     }
+    if (!found.complete)
+        std::cout
+            << "  fewer parameters (an identification that excludes more), a narrower start or "
+               "a shorter scenario reach farther; --budget only if it was spent\n";
     if (std::isfinite(found.excess))
         std::cout << "  tubes at most " << report::wider_text(found.excess)
                   << (found.excess < 1 ? " than" : " as") << " what these parameters reach\n";

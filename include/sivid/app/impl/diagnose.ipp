@@ -6,6 +6,7 @@
 
 #include <sivid/app/console.hpp>
 #include <sivid/app/detail/identification_output.hpp>
+#include <sivid/app/detail/other_answers.hpp>
 #include <sivid/app/detail/posed_problem.hpp>
 #include <sivid/app/program.hpp>
 #include <sivid/app/ranks.hpp>
@@ -117,8 +118,27 @@ inline void print_times(diagnosis const& d) {
     print("  it ends in ", d.causes.front().ends);
 }
 
-inline void print_holdout(diagnosis const& d) {
-    if (d.answer != answer_kind::effects || d.causes.empty() || !d.causes.front().holdout) return;
+/// Causes that say as much as the answer with less, which it does not name itself.
+inline void print_other_answers(diagnosis const& d) {
+    for (auto const* part : parts_that_explain(d))
+        std::cout << "  explains with fewer effects, proved later: " << joined(part->effects, " + ")
+                  << "; see identify --with " << joined(part->effects, ",") << "\n";
+    if (auto const* closest = closest_without_switches(d))
+        std::cout << "  closest without times and places of its own: "
+                  << joined(closest->effects, " + ") << ", with all bounds times "
+                  << report::estimate_text(closest->fitted_inflation) << " (estimate)\n";
+}
+
+inline void print_holdout(diagnosis const& d, bool kept) {
+    if (d.answer != answer_kind::effects || d.causes.empty()) return;
+    if (!d.causes.front().holdout) {
+        if (kept)
+            std::cout << "  held-out data: not judged, "
+                      << (switches(d.effects)
+                              ? "nothing says when the effect acts there\n"
+                              : "no time was left for that or no run went through them\n");
+        return;
+    }
     auto const& h = *d.causes.front().holdout;
     std::cout << "  inflation on the held-out data: " << report::inflation_text(h.inflation_before)
               << " without it, " << report::inflation_text(h.inflation_after) << " with it";
@@ -164,8 +184,9 @@ inline exit_code exit_code_of(diagnosis const& d) {
     return early ? undecided : done;
 }
 
+/// @param kept  whether data are held out
 inline void print_summary(diagnosis const& d, std::string const& id,
-                          std::filesystem::path const& out) {
+                          std::filesystem::path const& out, bool kept) {
     std::cout << id << ": gap " << to_string(d.gap) << ", inflation "
               << (report::says_something(d.inflation) ? report::inflation_text(d.inflation)
                                                       : std::string{"not bounded"})
@@ -184,6 +205,7 @@ inline void print_summary(diagnosis const& d, std::string const& id,
         }
     }
     std::cout << "\n";
+    print_other_answers(d);
     print_times(d);
     print_constants(d);
     print_combinations(d);
@@ -199,7 +221,7 @@ inline void print_summary(diagnosis const& d, std::string const& id,
     for (auto const& other : d.indistinguishable) {
         std::cout << "  not told apart from it: " << joined(other, " + ") << "\n";
     }
-    print_holdout(d);
+    print_holdout(d, kept);
     for (auto const& line : d.change.lines) std::cout << "  in a simulator: " << line << "\n";
     if (exit_code_of(d) == undecided)
         std::cout << "  ended early: what is open may be known with more time (--budget)\n";
@@ -285,7 +307,7 @@ public:
             write(*found);
         }
         progress_.finish();
-        print_summary(found->result, data_.id, command_.out);
+        print_summary(found->result, data_.id, command_.out, !kept_.empty());
         bool const explained = found->result.answer == answer_kind::none ||
                                found->result.answer == answer_kind::effects;
         if (explained && left() > 0 && wanted()) bound_parameters(*found);
@@ -364,6 +386,14 @@ private:
         static_cast<void>(output.write());
         std::cout << "  ranges of all parameters (proved: none outside explains the data):\n";
         print_ranges(output.view(), "    ");
+        auto const wide = [](auto const& p) {
+            return p.hull.lo <= p.prior.lo && p.prior.hi <= p.hull.hi;
+        };
+        if (found.reason == stop_reason::time_budget &&
+            std::any_of(output.view().parameters.begin(), output.view().parameters.end(), wide))
+            std::cout << "    " << to_string(found.reason)
+                      << ": a larger --budget, or identify --with these effects, may narrow "
+                         "them\n";
         if (command_.verbose) print_tried(output.view().tried);
         std::cout
             << "  written: " << told.out.string()

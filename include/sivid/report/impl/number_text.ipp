@@ -332,9 +332,11 @@ SIVID_DECL std::string span_text(range const& r, int digits) {
 SIVID_DECL std::string inflation_text(range const& r) {
     if (!(r.lo > 0) && std::isfinite(r.hi)) return span_text({-INFINITY, r.hi});
     int digits = 3;
-    for (double left = 0.01; r.lo > 1 && r.lo < 1 + 1.001 * left && digits < 12; left /= 10)
+    for (double left = 0.01; r.lo > 1 && r.lo < 1 + 1.001 * left && digits < 8; left /= 10)
         ++digits;
-    return span_text(r, digits);
+    if (digits < 8) return span_text(r, digits);
+    // Longer numbers tell a reader nothing more.
+    return std::isfinite(r.hi) ? "more than 1, " + span_text({-INFINITY, r.hi}) : "more than 1";
 }
 
 SIVID_DECL std::string estimate_text(double x) {

@@ -19,7 +19,8 @@ public:
     explicit required_keys(json_value const& root) {
         all(root, {{"id", ""},
                    {"model", "the name of the model"},
-                   {"parameters", "the unknown constants, each with its prior"},
+                   {"parameters",
+                    "the unknown constants, each with its prior, whatever a model's file says"},
                    {"max_outlier_fraction", "0 if no measurement violates its bound"},
                    {"scenarios", ""}});
         for (auto const& p : members(root.find("parameters"))) all(p, {{"prior", ""}});
