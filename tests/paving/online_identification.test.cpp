@@ -4,6 +4,7 @@
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
+#include "support/epidemic.hpp"
 #include "support/problems.hpp"
 #include "support/some_start.hpp"
 
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <random>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace sivid;
@@ -328,4 +330,26 @@ TEST_CASE("measurements that fit nothing are refused and change nothing") {
     CHECK(online.problem().experiments[0].measurements.size() ==
           planted.problem.experiments[0].measurements.size());
     CHECK(subset(before, online.last().hull));
+}
+
+TEST_CASE("contractors are asked while data arrive where runs over what is left say nothing") {
+    for (double const factor : {1., 8.}) {
+        auto whole = support::infection(1e4, factor);
+        auto const arriving = std::exchange(whole.experiments[0].measurements, {});
+        online_options options;
+        options.refinement.seconds = 1e6;
+        options.refinement.boxes = 100;
+        auto const after_all = [&] {
+            online_identification now(whole, options);
+            for (auto const& m : arriving) now.add({0, m});
+            return now.last();
+        };
+        auto const found = after_all();
+        if (factor == 1) CHECK(contains(found.hull, std::vector<double>{0.5, 0.3}));
+        CHECK((factor == 1 ? found.hull[0].upper() < 2 : found.verdict == verdict::inconsistent));
+        options.strategy = {};
+        auto const alone = after_all();
+        CHECK_FALSE(
+            (factor == 1 ? alone.hull[0].upper() < 100 : alone.verdict == verdict::inconsistent));
+    }
 }

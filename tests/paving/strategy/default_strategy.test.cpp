@@ -4,11 +4,13 @@
 
 #include "diagnosis/planted_records.hpp"
 #include "support/catch.hpp"
+#include "support/epidemic.hpp"
 #include "support/planted_curves.hpp"
 #include "support/planted_problems.hpp"
 #include "support/problems.hpp"
 #include "support/sweep.hpp"
 
+#include <sivid/paving/identify.hpp>
 #include <sivid/paving/strategy/contains_truth.hpp>
 #include <sivid/paving/strategy/inquiry.hpp>
 
@@ -38,8 +40,8 @@ void each_planted(std::size_t count, Visit const& visit) {
         if (n % 3 == 0) {
             auto const kinds = diagnosis_support::all_planted();
             auto const& what = kinds[d.below(kinds.size())];
-            auto const r = diagnosis_support::record_of(
-                d, what, support::model_of(what.shape, what.rate));
+            auto const r =
+                diagnosis_support::record_of(d, what, support::model_of(what.shape, what.rate));
             visit(r.problem, r.truth, d);
         } else if (n % 3 == 1) {
             auto const p = support::plant_curve(d, d.coin());
@@ -85,4 +87,25 @@ TEST_CASE("contractors keep the truth in any order, whenever they are asked") {
 TEST_CASE("a search of parts leaves most of its time to them") {
     for (auto const& step : default_strategy(search_kind::parts).steps) CHECK(step.share <= 0.3);
     CHECK(default_strategy().without("shapes").steps.size() == default_strategy().steps.size() - 1);
+}
+
+TEST_CASE("where outliers are allowed groups of measurements are asked") {
+    auto p = support::infection(1e7, 1);
+    auto& readings = p.experiments[0].measurements;
+    readings[3].bound = interval(1e-3, 2e-3);
+    p.experiments[0].outliers = 1;
+    auto const left = [&](strategy const& how) {
+        inquiry asked(p, {}, {}, work_limit(1e3));
+        contract(how, asked);
+        return asked.problem().prior;
+    };
+    auto const how = default_strategy();
+    auto const found = left(how);
+    CHECK(contains(found, std::vector<double>{0.5, 0.3}));
+    CHECK(found[0].upper() < 1000);
+    CHECK(left(how.without("groups of measurements"))[0].upper() == 1e7);
+    for (auto& m : readings) m.bound = interval(m.time, m.time + 0.1); // no outlier, but nonsense
+    CHECK(is_empty(left(how)));
+    p.experiments[0].outliers = 8;
+    CHECK(left(how)[0].upper() == 1e7);
 }

@@ -12,6 +12,7 @@
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/detail/drawing.hpp>
 #include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
 #include <sivid/space/box_cover.hpp>
 #include <sivid/work_limit.hpp>
 
@@ -153,6 +154,7 @@ private:
         for (std::size_t e = 0; e < samples.size(); ++e) witness_->add(e, samples[e]);
         if (put_off_) look_for_witness(limit);
         paving_->update(samples, options_.refinement, limit);
+        ask_contractors(limit);
         look_for_witness(limit);
         if (from_other_starts_ && limit()) {
             from_other_starts_ = false;
@@ -170,6 +172,27 @@ private:
         now.seconds = limit.spent();
         spent_ += now.seconds;
         return now;
+    }
+    /// What is blind is told by equations, perhaps; not again for each measurement.
+    void ask_contractors(work_limit const& limit) {
+        bool const blind = std::any_of(paving_->boxes().begin(), paving_->boxes().end(),
+                                       [](auto const& b) { return b.blind; });
+        if (!blind || 2 * samples_ < 3 * asked_at_ || !limit()) return;
+        asked_at_ = samples_;
+        auto left = posed();
+        left.prior = paving_->hull();
+        for (std::size_t e = 0; e < left.experiments.size(); ++e) {
+            left.experiments[e].measurements = problem_.experiments[e].measurements;
+            auto& most = left.experiments[e].outliers;
+            most = std::min(most, left.experiments[e].measurements.size());
+        }
+        std::erase_if(left.experiments, [](experiment const& e) { return e.measurements.empty(); });
+        work_limit const own(0.3 * limit.seconds(), limit);
+        inquiry asked(std::move(left), limited(options_.test, own), {}, own);
+        contract(options_.strategy, asked);
+        if (!asked.narrowed()) return;
+        paving_->restrict_to(asked.problem().prior);
+        if (limit()) paving_->refine(options_.refinement, limit);
     }
     /// A fit costs more the more measurements there are: not again for each of them.
     [[nodiscard]] bool fit_is_due() const {
@@ -257,7 +280,7 @@ private:
     std::optional<online_paving> paving_;
     std::optional<online_witness> witness_;
     online_update last_;
-    std::size_t samples_ = 0, fitted_at_ = 0;
+    std::size_t samples_ = 0, fitted_at_ = 0, asked_at_ = 0;
     bool put_off_ = false, cut_short_ = false; ///< the last fit
     bool from_other_starts_ = false;           ///< are the regions to be followed
     double spent_ = 0;

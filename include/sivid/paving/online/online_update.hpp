@@ -6,6 +6,7 @@
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/online/detail/online_refinement.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 #include <sivid/paving/verdict.hpp>
 #include <sivid/space/box.hpp>
 
@@ -27,6 +28,9 @@ struct online_options {
     bool only_hulls = false;
     /// As of `identify_options`; for `result` only.
     std::size_t drawn_boxes = 1500;
+    /// Asked where runs over what is left end early, each time that half as much was measured
+    /// again.
+    sivid::strategy strategy = default_strategy();
 };
 
 /// What is known after an update, without the paving; all of it is proved.

@@ -52,7 +52,8 @@ enum class search_kind {
 };
 /// What is tried before a search, where the program has it (`complete.hpp`); otherwise nothing is,
 /// and the journal says so. Its contractors by name, for `without`, in their order: shapes, state
-/// equations, interval observers, growing window, guided windows, slower inputs, windows all along.
+/// equations, interval observers, growing window, guided windows, slower inputs, windows all along,
+/// groups of measurements.
 [[nodiscard]] SIVID_DECL strategy default_strategy(search_kind of = search_kind::one);
 
 } // namespace sivid

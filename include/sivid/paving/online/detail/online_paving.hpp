@@ -116,6 +116,15 @@ public:
         });
         return decided ? stop_reason::decided : ended_;
     }
+    /// Nothing is left elsewhere (trusted).
+    void restrict_to(box const& left) {
+        for (auto& b : boxes_) {
+            b.set = intersect(b.set, left);
+            b.volume = volume(b.set);
+        }
+        std::erase_if(boxes_, [](live_box const& b) { return is_empty(b.set); });
+        narrow_regions();
+    }
     /// Integrates anew over what is left of each region: from other starts, say.
     /// @cost  a run for each of them, eight at a time; until the next refinement nothing is judged
     void learn_anew() {

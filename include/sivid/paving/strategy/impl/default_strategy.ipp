@@ -4,6 +4,7 @@
 
 #include <sivid/paving/strategy/detail/usual_strategy.hpp>
 
+#include <sivid/paving/strategy/detail/by_groups.hpp>
 #include <sivid/paving/strategy/detail/by_shapes.hpp>
 #include <sivid/paving/strategy/detail/by_slower_inputs.hpp>
 #include <sivid/paving/strategy/detail/by_windows.hpp>
@@ -88,7 +89,7 @@ SIVID_DECL strategy usual_strategy(search_kind of) {
     auto const guided = std::make_shared<guided_windows>();
     auto const slower = std::make_shared<by_slower_inputs>();
     auto const along = std::make_shared<windows_all_along>();
-    return {{
+    strategy how{{
         // The search cannot take curves apart, and what shapes leave is small.
         {{shapes}, 0.9 * pace, early_runs, true},
         // Seconds at most; the longest are records of thousands of samples.
@@ -106,6 +107,9 @@ SIVID_DECL strategy usual_strategy(search_kind of) {
          [=](inquiry& asked) { return grow(asked, one ? 0.5 : early, one ? 5 : 1000); }},
         {{along}, 0.8 * pace, [=](inquiry& asked) { return go_all_along(asked, early, one); }},
     }};
+    // All of these, where outliers are allowed.
+    how.steps.push_back({{std::make_shared<by_groups>(how)}, 0.8 * pace, early_runs});
+    return how;
 }
 
 } // namespace paving_detail
