@@ -108,6 +108,9 @@ TEST_CASE("an inflation that is forged is refuted or not proved") {
     CHECK(c.forged([](json& d) {
         d["gap"]["scenarios"]["S9"] = d["gap"]["scenarios"].begin().value();
     }) == outcome::refuted);
+    CHECK(c.forged([](json& d) {
+        d["gap"]["channels"]["S9"] = d["gap"]["scenarios"].begin().value();
+    }) == outcome::refuted);
 }
 
 TEST_CASE("a bound that is carried over is proved at the motion that it comes from, only there") {
@@ -167,7 +170,8 @@ TEST_CASE("causes that are forged are refuted or not proved") {
             d["answer"]["constants"][name]["hull"] = {at, at};
         }) == outcome::refuted);
     }
-    CHECK(c.forged([&](json& d) { d["shrink"]["fit"] = {0.2, 0.3}; }) == outcome::refuted);
+    for (auto const* const share : {"fit", "holdout", "holdout_over_fits"})
+        CHECK(c.forged([&](json& d) { d["shrink"][share] = {0.2, 0.3}; }) == outcome::refuted);
     CHECK(c.forged([&](json& d) { d["answer"]["constants"].begin().value()["value"] = 0.123; }) ==
           outcome::refuted);
 }
@@ -189,11 +193,16 @@ TEST_CASE("relations and places that are forged are not proved") {
         if (!c.stored["where"][k]["proved"].get<bool>()) continue;
         CHECK(c.forged([&](json& d) { d["where"][k]["name"] = "p"; }) != outcome::verified);
         CHECK(c.forged([&](json& d) { d["where"][k]["kind"] = "sensor"; }) == outcome::refuted);
+        CHECK(c.forged([&](json& d) {
+            for (auto* const of : {&d, &d["where"][k]})
+                (*of)["assumptions"].push_back("a calm day");
+        }) != outcome::verified);
         if (c.stored["where"][k]["missing"].is_null()) continue;
         CHECK(c.forged([&](json& d) {
             auto& at = d["where"][k]["from"];
             at = at.get<double>() + 0.1;
         }) != outcome::verified);
+        CHECK(c.forged([&](json& d) { d["where"][k]["unit"] = "furlong"; }) != outcome::verified);
         CHECK(c.forged([&](json& d) {
             auto& m = d["where"][k]["missing"];
             double const middle = 0.5 * (m[0].get<double>() + m[1].get<double>());

@@ -145,8 +145,8 @@ TEST_CASE("every figure of a claim that was altered is seen") {
     auto const flat = good.flatten();
     for (auto const& [path, value] : flat.items()) {
         auto const top = path.substr(1, path.find('/', 1) - 1);
-        // How the search went and what was tried is no claim, nor is how its certificates are best evaluated, and the
-        // budget of outliers is given; the data set is known by its digest.
+        // How the search went and what was tried is no claim, nor is how its certificates are best
+        // evaluated, and the budget of outliers is given; the data set is known by its digest.
         if (top == "dataset" || top == "source" || top == "boxes" || top == "search" ||
             top == "enclosures" || top == "integrations" || top == "journal" ||
             path.rfind("/outliers/budget", 0) == 0 || top == "seconds") {
@@ -191,6 +191,17 @@ TEST_CASE("what was tampered with is refuted") {
         bad.witness->initial["run"]["x"] = 2.5;
         CHECK(check(problem, bad)["witness"] == outcome::refuted);
         bad.witness->initial.clear();
+        CHECK(check(problem, bad)["witness"] == outcome::refuted);
+    }
+    SECTION("a name too many in the witness") {
+        auto const good = bad;
+        bad.witness->parameters["b"] = 0.5;
+        CHECK(check(problem, bad)["witness"] == outcome::refuted);
+        bad = good;
+        bad.witness->initial["run"]["y"] = 2;
+        CHECK(check(problem, bad)["witness"] == outcome::refuted);
+        bad = good;
+        bad.witness->initial["walk"] = good.witness->initial.at("run");
         CHECK(check(problem, bad)["witness"] == outcome::refuted);
     }
     SECTION("an inside box made larger, the sums adapted") {

@@ -27,12 +27,14 @@
 #include <sivid/paving/inflation/observer_refutation.hpp>
 #include <sivid/paving/relation/detail/broken_relation.hpp>
 #include <sivid/paving/relation/detail/untouched_relation.hpp>
+#include <sivid/verifier/claim/detail/named_motion.hpp>
 #include <sivid/verifier/claim/detail/stated_range.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -47,36 +49,30 @@ namespace io_detail {
 /// @param c  the answer; null: the closest cause is meant
 [[nodiscard]] inline check_finding check_shrinks(diagnosis const& d, cause const* c) {
     using outcome = check_finding::outcome;
+    using maybe = std::optional<interval>;
     finding_of_all all;
-    // What reading rounded outward is the larger the smaller the gap.
-    auto const follows = [&](std::optional<interval> const& stated,
-                             std::optional<interval> const& again, interval const& before,
+    auto const follows = [&](maybe const& stated, interval const& before, maybe const& after,
                              char const* which) {
         if (!stated) return;
+        auto const again = after ? shrink(before, *after) : std::nullopt;
+        // What reading rounded outward is the larger the smaller the gap.
         double const gap = before.lower() > 1 ? before.lower() - 1 : before.upper() - 1;
         double const slack = 1e-12 * (1 + 1 / std::max(1e-12, gap));
-        auto const outside = [slack](double a, double b) { // a must not be below b
-            return std::isfinite(a) && std::isfinite(b) ? a < b - slack * std::max(1.0, std::abs(b))
-                                                        : a < b;
-        };
+        auto const room = [slack](double end) { return slack * std::max(1.0, std::abs(end)); };
         bool const holds = again && !is_empty(*stated) &&
-                           !outside(again->lower(), stated->lower()) &&
-                           !outside(stated->upper(), again->upper());
+                           again->lower() >= stated->lower() - room(stated->lower()) &&
+                           again->upper() <= stated->upper() + room(stated->upper());
         all.note(holds ? outcome::verified : outcome::refuted,
                  std::string{"the share of "} + which + " does not follow from the inflations");
     };
     if (c == nullptr && !d.causes.empty()) c = &d.causes.front();
-    std::optional<interval> fit, held, over;
-    if (c != nullptr) fit = shrink(d.inflation, c->inflation);
-    if (c != nullptr && c->holdout) {
-        auto const& h = *c->holdout;
-        held = shrink(h.inflation_before, h.inflation_after);
-        if (h.over_fits_after) over = shrink(h.inflation_before, *h.over_fits_after);
-    }
-    auto const held_gap = c != nullptr && c->holdout ? c->holdout->inflation_before : d.inflation;
-    follows(d.shrink_fit, fit, d.inflation, "the fit");
-    follows(d.shrink_holdout, held, held_gap, "the held-out data");
-    follows(d.shrink_over_fits, over, held_gap, "all fits");
+    auto const held = c != nullptr ? c->holdout : std::nullopt;
+    auto const before = held ? held->inflation_before : d.inflation;
+    follows(d.shrink_fit, d.inflation, c != nullptr ? maybe{c->inflation} : std::nullopt,
+            "the fit");
+    follows(d.shrink_holdout, before, held ? maybe{held->inflation_after} : std::nullopt,
+            "the held-out data");
+    follows(d.shrink_over_fits, before, held ? held->over_fits_after : std::nullopt, "all fits");
     return all.finding("shrink", "follows from the inflations");
 }
 
@@ -84,34 +80,24 @@ namespace io_detail {
 
 /// The point that a witness names, if it is one of the problem: parameters of the prior, allowed
 /// starts. States that effects added start where the parameters say.
-[[nodiscard]] inline std::optional<approximate_fit> point_of(identification_problem const& p,
+[[nodiscard]] inline std::optional<approximate_fit> point_of(identification_problem p,
                                                              named_witness const& w) {
-    approximate_fit result;
-    auto const value = [](std::vector<named_estimate> const& all,
-                          std::string const& name) -> std::optional<double> {
-        auto const at = std::ranges::find(all, name, &named_estimate::name);
-        return at == all.end() ? std::nullopt : std::optional{at->value};
+    for (auto& e : p.experiments)
+        for (auto const& added : p.model.added_states)
+            e.initial[added.state] = interval_traits<interval>::entire();
+    auto const ranges = [](std::vector<named_estimate> const& all) {
+        io_detail::named_ranges result;
+        for (auto const& x : all) result[x.name] = interval(x.value);
+        return result;
     };
-    if (w.parameters.size() != p.prior.size() || w.starts.size() != p.experiments.size())
-        return std::nullopt;
-    for (std::size_t j = 0; j < p.prior.size(); ++j) {
-        auto const x = value(w.parameters, p.choice.unknown[j]);
-        if (!x || !contains(p.prior[j], *x)) return std::nullopt;
-        result.parameters.push_back(*x);
-    }
-    auto const& states = p.model.about.states;
-    for (auto const& e : p.experiments) {
-        auto const at = std::ranges::find(w.starts, e.name, &named_witness::start::scenario);
-        if (at == w.starts.end()) return std::nullopt;
-        auto& start = result.starts.emplace_back();
-        for (std::size_t i = 0; i < states.size(); ++i) {
-            auto const x = value(at->states, states[i].name);
-            bool const added = std::ranges::any_of(p.model.added_states,
-                                                   [i](auto const& a) { return a.state == i; });
-            if (!x || (!added && !contains(e.initial[i], *x))) return std::nullopt;
-            start.push_back(*x);
-        }
-    }
+    std::map<std::string, io_detail::named_ranges> initial;
+    for (auto const& start : w.starts) initial[start.scenario] = ranges(start.states);
+    std::string fault;
+    auto const found = io_detail::motion_by_names(p, ranges(w.parameters), initial, fault);
+    if (!found) return std::nullopt;
+    approximate_fit result;
+    result.parameters = mid(found->parameters);
+    for (auto const& start : found->starts) result.starts.push_back(mid(start));
     return result;
 }
 
@@ -234,39 +220,28 @@ namespace io_detail {
                                                work_limit const& limit) {
     using outcome = check_finding::outcome;
     finding_of_all all;
-    auto const& s = d.scenario_inflation;
-    auto const& c = d.channel_inflation;
-    std::size_t left = s.size() + c.size();
-    auto const part = [&](named_estimate const& stated, auto const& names, auto const& belongs) {
-        auto const k = static_cast<std::size_t>(
-            std::ranges::find_if(names, [&](auto const& n) { return n.name == stated.name; }) -
-            names.begin());
-        double const share = 0.5 / static_cast<double>(left--);
-        auto const words = "the inflation of " + stated.name + " alone is not proved again";
-        bool const nothing =
-            !stated.hull || (stated.hull->lower() <= 0 && std::isinf(stated.hull->upper()));
-        auto const own = restricted_to(
-            base, [&](std::size_t e, measurement const& m) { return belongs(k, e, m); });
-        if (k >= names.size() || own.experiments.empty()) {
-            all.note(outcome::refuted, "no such part of the data: " + stated.name);
-            return;
+    std::size_t left = d.scenario_inflation.size() + d.channel_inflation.size();
+    for (auto const* const list : {&d.scenario_inflation, &d.channel_inflation}) {
+        for (auto const& stated : *list) {
+            double const share = 0.5 / static_cast<double>(left--);
+            auto const own = restricted_to(base, [&](std::size_t e, measurement const& m) {
+                bool const scenario = list == &d.scenario_inflation;
+                return stated.name == (scenario ? base.experiments[e].name
+                                                : base.model.about.channels[m.channel].name);
+            });
+            bool const none = std::ranges::all_of(own.experiments, &experiment::constraint);
+            if (none) all.note(outcome::refuted, "no such part of the data: " + stated.name);
+            auto const hull = stated.hull.value_or(unknown_inflation());
+            if (none || (hull.lower() <= 0 && std::isinf(hull.upper()))) continue;
+            auto found = proof.bounds(own, share * limit.seconds());
+            if (found.lower() <= most && most < found.upper())
+                found = interval_traits<interval>::bounds(found.lower(), most);
+            auto says = compared(found, hull);
+            if (says == outcome::undecided && found.upper() <= hull.upper())
+                says = proof.at_least(own, hull.lower(), share);
+            all.note(says, "the inflation of " + stated.name + " alone is not proved again");
         }
-        if (nothing) return;
-        auto const alone = proof.bounds(own, share * limit.seconds());
-        auto const found = alone.lower() <= most && most < alone.upper()
-                               ? interval_traits<interval>::bounds(alone.lower(), most)
-                               : alone;
-        auto says = compared(found, *stated.hull);
-        if (says == outcome::undecided && found.upper() <= stated.hull->upper())
-            says = proof.at_least(own, stated.hull->lower(), share);
-        all.note(says, words);
-    };
-    for (auto const& e : s)
-        part(e, base.experiments,
-             [](std::size_t k, std::size_t at, measurement const&) { return at == k; });
-    for (auto const& e : c)
-        part(e, base.model.about.channels,
-             [](std::size_t k, std::size_t, measurement const& m) { return m.channel == k; });
+    }
     return all.finding("parts of the data", "scenarios and channels alone");
 }
 
@@ -667,18 +642,14 @@ private:
             broken_ = find_broken_relations(*base_, how);
         }
         for (auto const& r : d_->relations) {
-            auto const words = "relation " + r.equation + " is not proved again as stated";
             if (!r.proved) continue;
             auto const* f = broken(r.equation);
-            if (f == nullptr) {
-                all.note(outcome::undecided, words);
-                continue;
-            }
-            auto const again = reported(*f);
-            bool const same = again.sensors == r.sensors && again.assumptions == r.assumptions &&
-                              again.definition == r.definition &&
-                              same_windows(again.windows, r.windows);
-            all.note(same ? outcome::verified : outcome::undecided, words);
+            auto const again = f != nullptr ? reported(*f) : broken_relation_report{};
+            bool const same =
+                again.proved && again.sensors == r.sensors && again.assumptions == r.assumptions &&
+                again.definition == r.definition && same_windows(again.windows, r.windows);
+            all.note(same ? outcome::verified : outcome::undecided,
+                     "relation " + r.equation + " is not proved again as stated");
         }
         return all.finding("relations", std::to_string(d_->relations.size()) + " refuted anew");
     }
@@ -692,29 +663,26 @@ private:
         std::optional<sensor_discharge> discharge;
         for (auto const& p : d_->where) {
             if (!p.proved) continue;
-            auto const words = "place " + p.name + " is not proved again as stated";
+            suspected_place again;
             auto const* f = broken(p.name);
-            if (f == nullptr || p.kind != "equation") {
-                all.note(outcome::undecided, words);
-                continue;
+            if (f != nullptr && p.kind == "equation") {
+                if (!discharge)
+                    discharge.emplace(*base_, sensor_fault_ranges{}, relation_options{}, limit_);
+                auto found = *f;
+                found.place = (*discharge)(found);
+                estimated_place where;
+                where.kind = place_kind::equation;
+                where.name = p.name;
+                if (found.place && found.place->missing) where.unit = found.place->missing->unit;
+                again = reported(where, {found});
             }
-            if (!discharge)
-                discharge.emplace(*base_, sensor_fault_ranges{}, relation_options{}, limit_);
-            auto const place = (*discharge)(*f);
-            if (!place || place->assumptions != p.assumptions) {
-                all.note(outcome::undecided, words);
-            } else if (!p.missing) {
-                all.note(outcome::verified, "");
-            } else if (!place->missing) {
-                all.note(outcome::undecided, words);
-            } else {
-                auto const& m = *place->missing;
-                auto const close = [](double a, double b) { return std::abs(a - b) <= 1e-9; };
-                bool const there = m.window.scenario == p.where.scenario &&
-                                   close(m.window.from, p.where.from) &&
-                                   close(m.window.to, p.where.to) && m.unit == p.unit;
-                all.note(there ? compared(m.value, *p.missing) : outcome::undecided, words);
-            }
+            bool const same = again.proved && again.assumptions == p.assumptions;
+            bool const there =
+                again.missing && again.unit == p.unit && same_windows({again.where}, {p.where});
+            all.note(!same || (p.missing && !there) ? outcome::undecided
+                     : p.missing                    ? compared(*again.missing, *p.missing)
+                                                    : outcome::verified,
+                     "place " + p.name + " is not proved again as stated");
         }
         return all.finding("places", "no sensor of theirs can be wrong instead");
     }

@@ -7,6 +7,7 @@
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
+#include <sivid/verifier/claim/detail/named_motion.hpp>
 #include <sivid/verifier/claim/detail/stored_claims.hpp>
 #include <sivid/verifier/proof/detail/plain_proof.hpp>
 
@@ -36,11 +37,11 @@ public:
         : data_(data), seconds_(seconds) {
         std::string fault;
         if (!stored.witness) return;
-        auto const point = witness_point(data, stored, fault);
+        auto const point = witness_motion(data, stored, fault);
         if (!point) return;
-        witness_ = point->parameters;
+        witness_ = mid(point->parameters);
         for (std::size_t e = 0; e < data.experiments.size(); ++e)
-            starts_.push_back(point_within(data.experiments[e].initial, point->starts[e]));
+            starts_.push_back(point_within(data.experiments[e].initial, mid(point->starts[e])));
     }
 
     void use(std::vector<product_formula> sides, std::vector<std::size_t> pivots) {

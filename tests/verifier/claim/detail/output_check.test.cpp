@@ -168,6 +168,12 @@ TEST_CASE("outputs of another motion than the one that is named are refuted") {
         s.parameters["a"] = interval(1.25);
     }));
     auto of_box = kept(io_support::one_rate_problem(), motion_source::inside_box);
+    auto wider = of_box;
+    auto& side = wider.stored.shown->parameters["a"];
+    for (auto const& row : of_box.stored.rows)
+        if (row.verdict == box_verdict::inside) side = hull(side, row.set[0]);
+    side = interval(side.lower() - 1e-9, side.upper() + 1e-9);
+    CHECK_THAT(wider.check().detail, ContainsSubstring("lie in no inside box"));
     for (auto& row : of_box.stored.rows) row.verdict = box_verdict::pending;
     CHECK(of_box.check().found == outcome::refuted);
 }

@@ -8,6 +8,7 @@
 #include <sivid/paving/identifiability/detail/output_sensitivities.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/verifier/check_finding.hpp>
+#include <sivid/verifier/claim/detail/named_motion.hpp>
 #include <sivid/verifier/claim/detail/paving_check.hpp>
 #include <sivid/verifier/claim/detail/stored_claims.hpp>
 #include <sivid/verifier/claim/detail/witness_checks.hpp>
@@ -151,30 +152,23 @@ private:
 
     /// What follows from the files and the problem alone.
     void check_statements(findings& all) {
-        bool const products = by_products();
+        auto const& prior = by_products() ? rebuilt_.problem.prior : problem_->prior;
         all.add([&] { return check_files(*stored_); });
         all.add([&] { return check_problem(*problem_, *stored_); });
         all.add(
             [&] { return check_assumptions(*problem_, *stored_, options_.further_assumptions); });
-        all.add([&] {
-            return check_stop(*stored_, products ? rebuilt_.problem.prior : problem_->prior);
-        });
-        all.add([&] {
-            return products ? check_verdict_of_products(*problem_, *stored_, limit_)
-                            : check_verdict(*stored_);
-        });
-        all.add([&] {
-            return products ? check_hull_of_products<Exact>(*problem_, *stored_, rebuilt_)
-                            : check_hull(*problem_, *stored_);
-        });
-        all.add([&] {
-            return products ? check_volumes_of_products(*problem_, *stored_, limit_)
-                            : check_volumes(*problem_, *stored_);
-        });
-        all.add([&] {
-            return products ? check_combinations_of_products(*stored_)
-                            : check_combinations<Exact>(*problem_, *stored_);
-        });
+        all.add([&] { return check_stop(*stored_, prior); });
+        if (by_products()) {
+            all.add([&] { return check_verdict_of_products(*problem_, *stored_, limit_); });
+            all.add([&] { return check_hull_of_products<Exact>(*problem_, *stored_, rebuilt_); });
+            all.add([&] { return check_volumes_of_products(*problem_, *stored_, limit_); });
+            all.add([&] { return check_combinations_of_products(*stored_); });
+        } else {
+            all.add([&] { return check_verdict(*stored_); });
+            all.add([&] { return check_hull(*problem_, *stored_); });
+            all.add([&] { return check_volumes(*problem_, *stored_); });
+            all.add([&] { return check_combinations<Exact>(*problem_, *stored_); });
+        }
     }
 
     /// What is said of single motions, of outliers and of what data can tell.
@@ -247,38 +241,30 @@ private:
     [[nodiscard]] check_finding witness() {
         std::string fault;
         if (!stored_->witness) return {"witness", outcome::nothing, fault};
-        auto const w = io_detail::witness_point(*problem_, *stored_, fault);
-        if (!w) return {"witness", outcome::refuted, fault};
-        auto const fine = of_points();
-        check_finding result{"witness", outcome::verified, ""};
+        auto const w = witness_motion(*problem_, *stored_, fault);
+        if (!w) return {"witness", outcome::refuted, "the witness: " + fault};
+        auto alone = *problem_; // from the starts of the witness
+        for (std::size_t e = 0; e < w->starts.size(); ++e)
+            alone.experiments[e].initial = w->starts[e];
+        proved_campaign<Exact> campaign(alone, {}, of_points());
+        auto const known = campaign.learn(w->parameters, false);
         std::size_t samples = 0;
-        auto const p = point_box(w->parameters);
-        for (std::size_t e = 0; e < problem_->experiments.size(); ++e) {
-            auto own = problem_->experiments[e];
-            bool const uncertain = any_uncertain(own.inputs);
-            own.inputs = nominal(std::move(own.inputs)); // any possible input will do
-            plain_run<Exact> run(problem_->model, problem_->choice, own, fine);
-            auto const known = run(point_box(w->starts[e]), p);
-            note_readings(e, known, run.samples());
-            samples += run.samples().size();
-            auto says = decide(known, run.samples(), p, own.outliers);
-            if (says == run_finding::explained) continue;
-            if (uncertain && says == run_finding::refuted) { // by the recorded inputs, not by all
-                plain_run<Exact> all(problem_->model, problem_->choice, problem_->experiments[e],
-                                     fine);
-                says = decide(all(point_box(w->starts[e]), p), all.samples(), p, own.outliers);
-            }
-            if (says == run_finding::open && result.found == outcome::refuted) continue;
-            result.found = says == run_finding::refuted ? outcome::refuted : outcome::undecided;
-            result.detail = (says == run_finding::refuted ? "it does not explain "
-                                                          : "no proof that it explains ") +
-                            own.name;
+        for (std::size_t e = 0; e < known.all.size(); ++e) {
+            auto const& own = alone.experiments[e]; // by recorded inputs: any possible ones will do
+            note_readings(e, any_uncertain(own.inputs) ? known.chosen[e] : known.all[e],
+                          sorted(own.measurements));
+            samples += own.measurements.size();
         }
-        if (result.found != outcome::verified) return result;
-        result.detail = "explains " + std::to_string(samples) + " measurements by " +
-                        std::to_string(problem_->experiments.size()) + " validated runs";
-        for (auto const& s : w->starts) starts_.push_back(point_box(s));
-        return result;
+        auto const says = campaign.judge(known, w->parameters);
+        if (says == run_finding::refuted)
+            return {"witness", outcome::refuted,
+                    "it does not explain " + alone.experiments[known.all.size() - 1].name};
+        if (says == run_finding::open)
+            return {"witness", outcome::undecided, "no proof that it explains the data"};
+        starts_ = w->starts;
+        return {"witness", outcome::verified,
+                "explains " + std::to_string(samples) + " measurements by " +
+                    std::to_string(starts_.size()) + " validated runs"};
     }
     /// What the witness certainly meets cannot be a forced outlier.
     void note_readings(std::size_t e, plain_outputs<Exact> const& known, record const& samples) {

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
@@ -73,14 +74,14 @@ public:
         for (auto const& row : stored_->rows) {
             if (row.verdict != box_verdict::inside) continue;
             ++count;
-            auto const image = image_of(intersect(row.set, problem_->prior));
-            bool proved = image.has_value();
-            if (proved) {
-                auto left = cover(*image, rows, 2e-15, keep_going_).gaps;
-                io_detail::drop_slivers(left, *image);
-                proved = left.empty();
+            auto const image =
+                io_detail::image_of<I>(*rebuilt_, intersect(row.set, problem_->prior));
+            std::vector<box> left{image};
+            if (std::ranges::all_of(image, [](interval const& side) { return is_bounded(side); })) {
+                left = cover(image, rows, 2e-15, keep_going_).gaps;
+                io_detail::drop_slivers(left, image);
             }
-            open += proved ? 0 : 1;
+            open += left.empty() ? 0 : 1;
         }
         if (count == 0) return {std::move(what), outcome::nothing, ""};
         return finding(std::move(what), count, open);
@@ -93,17 +94,6 @@ private:
                       " follow from the products";
         return {std::move(what), open == 0 ? outcome::verified : outcome::undecided,
                 std::move(detail)};
-    }
-    /// The products over a box, outward.
-    [[nodiscard]] std::optional<box> image_of(box const& x) const {
-        auto const p = io_detail::in<I>(x);
-        box result(rebuilt_->sides.size());
-        for (std::size_t k = 0; k < result.size(); ++k) {
-            auto const value = rebuilt_->sides[k].over(p);
-            if (!value) return std::nullopt;
-            result[k] = io_detail::in_doubles(*value);
-        }
-        return result;
     }
     /// Whether a row has more than a rounding error in common with an image.
     [[nodiscard]] bool meets(box const& row, box const& image) const {
@@ -126,18 +116,16 @@ private:
             box set;
             std::vector<std::size_t> near;
         };
-        std::vector<piece> waiting{{gap, {}}};
-        for (std::size_t k = 0; k < stored_->products->rows.size(); ++k) {
-            waiting[0].near.push_back(k);
-        }
+        std::vector<std::size_t> all(stored_->products->rows.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        std::vector<piece> waiting{{gap, std::move(all)}};
         while (!waiting.empty()) {
             auto const next = std::move(waiting.back());
             waiting.pop_back();
-            auto const image = image_of(next.set);
-            std::vector<std::size_t> near;
-            for (auto const k : next.near) {
-                if (!image || meets(stored_->products->rows[k].set, *image)) near.push_back(k);
-            }
+            auto const image = io_detail::image_of<I>(*rebuilt_, next.set);
+            auto near = next.near;
+            std::erase_if(
+                near, [&](std::size_t k) { return !meets(stored_->products->rows[k].set, image); });
             if (near.empty()) continue;
             auto const cut = place_to_cut(next.set);
             if (!cut || spent_++ >= most_ || late()) return false;
@@ -303,15 +291,12 @@ private:
     /// A point that no row contains and that is proved to explain the data.
     [[nodiscard]] std::optional<std::vector<double>> explaining_point() const {
         std::optional<std::vector<double>> point;
-        std::vector<std::pair<double, std::size_t>> order;
-        for (std::size_t k = 0; k < gaps_.size(); ++k) {
-            order.emplace_back(-relative_volume(gaps_[k], problem_->prior).upper(), k);
-        }
-        auto const count = std::min(order.size(), most_fitted());
-        std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
-                          order.end());
-        std::vector<box> largest;
-        for (std::size_t k = 0; k < count; ++k) largest.push_back(gaps_[order[k].second]);
+        auto largest = gaps_;
+        auto const volume = [this](box const& x) {
+            return relative_volume(x, problem_->prior).upper();
+        };
+        std::ranges::stable_sort(largest, std::ranges::greater{}, volume);
+        largest.resize(std::min(largest.size(), most_fitted()));
         (void)find_explaining_point(*problem_, largest, search([&](approximate_fit const& f) {
             bool const said = contains(problem_->prior, f.parameters) &&
                               std::none_of(rows_->begin(), rows_->end(), [&](auto const& row) {
@@ -332,9 +317,7 @@ private:
             if (!is_empty(x)) inside.push_back(std::move(x));
         }
         std::shuffle(inside.begin(), inside.end(), random); // should time not suffice for all
-        if (inside.size() > most_fitted()) {
-            inside.erase(inside.begin() + static_cast<std::ptrdiff_t>(most_fitted()), inside.end());
-        }
+        inside.resize(std::min(inside.size(), most_fitted()));
         std::optional<std::vector<double>> point;
         (void)find_unexplained_point(*problem_, inside, search([&](approximate_fit const& f) {
             if (!proves(f, false, run_finding::refuted)) return false;

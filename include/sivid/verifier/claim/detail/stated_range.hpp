@@ -18,16 +18,10 @@ namespace sivid {
 
 namespace io_detail {
 
-/// A side and a box in the arithmetic of I.
+/// A side in the arithmetic of I.
 template <class I>
 [[nodiscard]] I in(interval const& side) {
     return interval_traits<I>::bounds(side.lower(), side.upper());
-}
-template <class I>
-[[nodiscard]] basic_box<I> in(box const& x) {
-    basic_box<I> result(x.size());
-    for (std::size_t j = 0; j < x.size(); ++j) result[j] = in<I>(x[j]);
-    return result;
 }
 /// The doubles around it.
 template <class I>

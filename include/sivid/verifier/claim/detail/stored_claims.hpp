@@ -14,6 +14,7 @@
 #include <sivid/paving/products/detail/preimage_volume.hpp>
 #include <sivid/space/box.hpp>
 #include <sivid/space/box_cover.hpp>
+#include <sivid/space/box_lanes.hpp>
 #include <sivid/verifier/check_finding.hpp>
 #include <sivid/verifier/claim/detail/stated_range.hpp>
 
@@ -83,7 +84,7 @@ template <class I>
     choice.unknown.clear();
     std::vector<bool> is_pivot(names.size(), false);
     result.problem.prior = box(result.sides.size());
-    auto const prior = io_detail::in<I>(original.prior);
+    auto const prior = box_in<I>(original.prior);
     for (std::size_t k = 0; k < result.sides.size(); ++k) {
         auto const pivot = io_detail::pivot_of(result.sides, k);
         auto const range = result.sides[k].over(prior);
@@ -138,6 +139,18 @@ template <class I>
 }
 
 namespace io_detail {
+
+/// The products over a box of parameters, outward; unbounded where one is not defined.
+template <class I = interval>
+[[nodiscard]] box image_of(stored_products const& rebuilt, box const& x) {
+    auto const p = box_in<I>(x);
+    box image(rebuilt.sides.size());
+    for (std::size_t k = 0; k < image.size(); ++k) {
+        auto const value = rebuilt.sides[k].over(p);
+        image[k] = value ? in_doubles(*value) : interval_traits<interval>::entire();
+    }
+    return image;
+}
 
 /// Whether parameters of a prior reach a box of products.
 enum class reach { all, some, none };
@@ -205,48 +218,10 @@ enum class reach { all, some, none };
 
 namespace io_detail {
 
-inline double apart(interval const& a, interval const& b) {
-    return std::max({0.0, a.lower() - b.upper(), b.lower() - a.upper()});
-}
 inline bool any_is(std::vector<paved_box> const& rows, box_verdict what) {
     return std::any_of(rows.begin(), rows.end(),
                        [what](auto const& row) { return row.verdict == what; });
 }
-inline bool any_inside(std::vector<paved_box> const& rows) {
-    return any_is(rows, box_verdict::inside);
-}
-/// The parameters and starts of the witness, if they fit the problem; else `fault` says why not.
-struct stored_point {
-    std::vector<double> parameters;
-    std::vector<std::vector<double>> starts;
-};
-inline std::optional<stored_point> witness_point(identification_problem const& problem,
-                                                 stored_identification const& stored,
-                                                 std::string& fault) {
-    stored_point result;
-    auto const look = [&](std::map<std::string, double> const& values, std::string const& name) {
-        auto const found = values.find(name);
-        if (found == values.end()) fault = "the witness lacks " + name;
-        return found == values.end() ? 0.0 : found->second;
-    };
-    for (auto const& name : problem.choice.unknown)
-        result.parameters.push_back(look(stored.witness->parameters, name));
-    if (!contains(problem.prior, result.parameters)) fault = "the witness leaves the prior";
-    for (auto const& e : problem.experiments) {
-        auto const found = stored.witness->initial.find(e.name);
-        if (found == stored.witness->initial.end()) {
-            fault = "the witness has no start for " + e.name;
-            return std::nullopt;
-        }
-        auto& start = result.starts.emplace_back();
-        for (auto const& state : problem.model.about.states)
-            start.push_back(look(found->second, state.name));
-        if (!contains(e.initial, start)) fault = "the start in " + e.name + " is not allowed";
-    }
-    if (!fault.empty()) return std::nullopt;
-    return result;
-}
-
 /// The volumes of the inside boxes and of all, summed.
 template <class Volume>
 std::pair<interval, interval> volumes_of(std::vector<paved_box> const& rows, Volume const& volume) {
@@ -380,7 +355,7 @@ inline check_finding late(std::string what) {
 /// The verdict follows from witness and boxes; of products, from a volume that is said to be
 /// proved inside (`check_verdict_of_products`).
 [[nodiscard]] inline check_finding check_verdict(stored_identification const& stored) {
-    bool const inside = io_detail::any_inside(stored.rows);
+    bool const inside = io_detail::any_is(stored.rows, box_verdict::inside);
     bool const volume = stored.products && !is_empty(stored.inner) && stored.inner.lower() > 0;
     auto const follows = stored.witness || inside || volume ? verdict::consistent
                          : stored.rows.empty()              ? verdict::inconsistent
@@ -388,7 +363,7 @@ inline check_finding late(std::string what) {
     auto const words = std::string{to_string(stored.verdict)};
     std::string fault;
     if (follows != stored.verdict) fault = "'" + words + "' does not follow from the rest";
-    if (volume && !io_detail::any_inside(stored.products->rows)) {
+    if (volume && !io_detail::any_is(stored.products->rows, box_verdict::inside)) {
         fault = "a volume is said to be proved inside, but no product is";
     }
     auto const grounds =
@@ -524,7 +499,7 @@ template <class I>
         }
         auto low = HUGE_VAL, high = -HUGE_VAL;
         for (auto const& row : stored.rows) {
-            auto const value = formula->over(io_detail::in<I>(row.set));
+            auto const value = formula->over(box_in<I>(row.set));
             low = std::min(low, value ? traits::lower(*value) : -HUGE_VAL);
             high = std::max(high, value ? traits::upper(*value) : HUGE_VAL);
         }
@@ -560,7 +535,8 @@ template <class I>
     for (auto const& gap : found.gaps) {
         sum = traits::add(sum, relative_volume(gap, problem.prior));
     }
-    if (io_detail::apart(sum, interval(1.0)) > 1e-9) fault = "boxes and rest are not the prior";
+    bool const whole = sum.lower() <= 1 + 1e-9 && sum.upper() >= 1 - 1e-9;
+    if (!whole) fault = "boxes and rest are not the prior";
     return io_detail::agreement(std::move(what), fault,
                                 "boxes disjoint; with " + std::to_string(found.gaps.size()) +
                                     " excluded boxes between them all of the prior");
@@ -601,7 +577,7 @@ template <class I>
     int roundings = 8;
     if (fault.empty() && !stored.rows.empty()) {
         auto const products = io_detail::hull_of(rows), boxes = io_detail::hull_of(stored.rows);
-        auto p = io_detail::in<I>(problem.prior);
+        auto p = box_in<I>(problem.prior);
         for (std::size_t k = 0; k < rebuilt.sides.size(); ++k) {
             auto const& e = rebuilt.sides[k].exponents();
             roundings += 4 * rebuilt.sides[k].degree();
@@ -670,7 +646,7 @@ check_verdict_of_products(identification_problem const& problem,
                           std::function<bool()> const& keep_going = {}) {
     auto found = check_verdict(stored);
     if (found.found != check_finding::outcome::verified || stored.verdict != verdict::consistent ||
-        stored.witness || io_detail::any_inside(stored.rows)) {
+        stored.witness || io_detail::any_is(stored.rows, box_verdict::inside)) {
         return found;
     }
     if (auto const map = stated_reduction(problem, stored)) {
@@ -733,13 +709,6 @@ inline bool met_by(std::vector<paved_box> const& rows, box const& image) {
     return std::any_of(rows.begin(), rows.end(), [&](paved_box const& row) {
         return row.verdict != box_verdict::outside && !is_empty(intersect(row.set, image));
     });
-}
-
-inline box image_of(stored_products const& rebuilt, box const& x) {
-    box image(rebuilt.sides.size());
-    for (std::size_t k = 0; k < image.size(); ++k)
-        image[k] = rebuilt.sides[k].over(x).value_or(interval_traits<interval>::entire());
-    return image;
 }
 
 /// What the boxes of parameters and of products say of each other.

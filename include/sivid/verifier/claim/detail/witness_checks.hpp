@@ -8,17 +8,16 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/paving/run/plain_run.hpp>
+#include <sivid/verifier/claim/detail/named_motion.hpp>
 #include <sivid/verifier/claim/detail/stored_claims.hpp>
 #include <sivid/verifier/proof/detail/plain_proof.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -31,28 +30,38 @@ namespace sivid {
 
 namespace io_detail {
 
-/// Readings of one instant and channel. A result says how many of them are forced outliers, not
-/// which.
-struct forced_readings {
-    std::size_t all = 0, forced = 0;
-    std::vector<std::size_t> missed; ///< those that the witness does not certainly meet
+/// What a verified run of the witness says of its measurements, by experiment, in the order of
+/// time: which it certainly meets, which by more than a millionth of the bound's width, and which
+/// it certainly violates. A search marks as violated what it did not show to be met.
+struct witness_readings {
+    std::vector<std::vector<bool>> met, clearly_met, violated;
+
+    /// One more measurement of an experiment. @param output  empty where the run did not get there
+    template <class I>
+    void note(std::size_t e, interval const& bound, std::optional<I> const& output) {
+        using traits = interval_traits<I>;
+        for (auto* const list : {&met, &clearly_met, &violated})
+            list->resize(std::max(list->size(), e + 1));
+        double const rim = 1e-6 * width(bound);
+        met[e].push_back(output && traits::subset(*output, in<I>(bound)));
+        clearly_met[e].push_back(output && traits::lower(*output) > bound.lower() + rim &&
+                                 traits::upper(*output) < bound.upper() - rim);
+        violated[e].push_back(output && traits::disjoint(*output, in<I>(bound)));
+    }
+
+    [[nodiscard]] static bool says(std::vector<std::vector<bool>> const& all, std::size_t e,
+                                   std::size_t k) {
+        return e < all.size() && k < all[e].size() && all[e][k];
+    }
 };
 
-/// @param hits  what the witness certainly meets; may be empty
-inline forced_readings readings_of(stored_identification const& stored,
-                                   stored_identification::outlier const& f, record const& samples,
-                                   model_description const& about, std::vector<bool> const& hits) {
-    forced_readings result;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        if (samples[k].time != f.time || about.channels[samples[k].channel].name != f.channel)
-            continue;
-        ++result.all;
-        if (k >= hits.size() || !hits[k]) result.missed.push_back(k);
-    }
-    for (auto const& g : stored.forced) {
-        bool const same = g.scenario == f.scenario && g.time == f.time && g.channel == f.channel;
-        result.forced += same ? 1 : 0;
-    }
+/// How many readings of a scenario are said to be forced outliers, by instant and channel. A result
+/// does not say which of several.
+inline std::map<std::pair<double, std::string>, std::size_t>
+forced_in(stored_identification const& stored, std::string const& scenario) {
+    std::map<std::pair<double, std::string>, std::size_t> result;
+    for (auto const& f : stored.forced)
+        if (f.scenario == scenario) ++result[{f.time, f.channel}];
     return result;
 }
 
@@ -106,47 +115,48 @@ template <class I>
     using outcome = check_finding::outcome;
     std::string const what = "proved outliers";
     work_limit const in_time(seconds);
-    bool any = false;
+    std::size_t known = 0;
+    auto const& channels = problem.model.about.channels;
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         auto const& own = problem.experiments[e];
         plain_run<I> run(problem.model, problem.choice, own, how);
-        std::vector<std::size_t> which;                  // shown together
-        std::vector<io_detail::forced_readings> unclear; // one by one
-        for (auto const& f : stored.forced) {
-            if (f.scenario != own.name) continue;
-            any = true;
-            auto const r = io_detail::readings_of(stored, f, run.samples(), problem.model.about,
-                                                  e < hits.size() ? hits[e] : std::vector<bool>{});
-            if (r.all < r.forced) {
+        auto const& samples = run.samples();
+        std::vector<std::size_t> which;                                        // shown together
+        std::vector<std::pair<std::vector<std::size_t>, std::size_t>> unclear; // one by one
+        for (auto const& [where, count] : io_detail::forced_in(stored, own.name)) {
+            known += count;
+            std::size_t readings = 0;
+            std::vector<std::size_t> missed; // by the witness, or perhaps
+            for (std::size_t k = 0; k < samples.size(); ++k) {
+                if (where != std::pair{samples[k].time, channels[samples[k].channel].name})
+                    continue;
+                ++readings;
+                if (!io_detail::witness_readings::says(hits, e, k)) missed.push_back(k);
+            }
+            if (readings < count)
                 return {what, outcome::refuted, "no such measurement in " + own.name};
-            }
-            if (r.missed.size() < r.forced) {
+            if (missed.size() < count)
                 return {what, outcome::refuted, "the witness meets one in " + own.name};
-            }
-            if (r.missed.size() > r.forced) {
-                unclear.push_back(r);
+            if (missed.size() > count) {
+                unclear.emplace_back(std::move(missed), count);
             } else {
-                which.insert(which.end(), r.missed.begin(), r.missed.end());
+                which.insert(which.end(), missed.begin(), missed.end());
             }
         }
         auto const violated = [&](std::vector<std::size_t> const& these) {
             return io_detail::violated_everywhere(problem, stored, own, run, these, in_time);
         };
-        bool proved = violated(which);
-        for (std::size_t k = 0; k < unclear.size() && proved; ++k) {
-            std::size_t found = 0;
-            for (auto const place : unclear[k].missed) found += violated({place}) ? 1 : 0;
-            proved = found >= unclear[k].forced;
-        }
+        bool const proved =
+            violated(which) && std::ranges::all_of(unclear, [&](auto const& group) {
+                auto const found = std::ranges::count_if(
+                    group.first, [&](std::size_t place) { return violated({place}); });
+                return static_cast<std::size_t>(found) >= group.second;
+            });
         if (!proved) return {what, outcome::undecided, "no proof within the budget"};
     }
-    bool const strangers =
-        std::any_of(stored.forced.begin(), stored.forced.end(), [&](auto const& f) {
-            return std::none_of(problem.experiments.begin(), problem.experiments.end(),
-                                [&](auto const& e) { return e.name == f.scenario; });
-        });
-    if (strangers) return {what, outcome::refuted, "one in no scenario of the data set"};
-    if (!any) return {what, outcome::nothing, ""};
+    if (known < stored.forced.size())
+        return {what, outcome::refuted, "one in no scenario of the data set"};
+    if (known == 0) return {what, outcome::nothing, ""};
     return {what, outcome::verified, "every box violates those stated"};
 }
 
@@ -311,31 +321,6 @@ check_fewest(identification_problem const& problem, stored_identification const&
 
 namespace io_detail {
 
-/// What a verified run of the witness says of its measurements, by experiment, in the order of
-/// time: which it certainly meets, which by more than a millionth of the bound's width, and which
-/// it certainly violates. A search marks as violated what it did not show to be met.
-struct witness_readings {
-    std::vector<std::vector<bool>> met, clearly_met, violated;
-
-    /// One more measurement of an experiment. @param output  empty where the run did not get there
-    template <class I>
-    void note(std::size_t e, interval const& bound, std::optional<I> const& output) {
-        using traits = interval_traits<I>;
-        for (auto* const list : {&met, &clearly_met, &violated})
-            list->resize(std::max(list->size(), e + 1));
-        double const rim = 1e-6 * width(bound);
-        met[e].push_back(output && traits::subset(*output, in<I>(bound)));
-        clearly_met[e].push_back(output && traits::lower(*output) > bound.lower() + rim &&
-                                 traits::upper(*output) < bound.upper() - rim);
-        violated[e].push_back(output && traits::disjoint(*output, in<I>(bound)));
-    }
-
-    [[nodiscard]] static bool says(std::vector<std::vector<bool>> const& all, std::size_t e,
-                                   std::size_t k) {
-        return e < all.size() && k < all[e].size() && all[e][k];
-    }
-};
-
 /// A row of outputs.csv behind the measurement. No end where the cell is empty.
 struct output_row {
     interval model; ///< at most what the cells state
@@ -405,13 +390,10 @@ inline std::string state_fault(identification_problem const& problem,
                                std::vector<std::vector<output_row>> const& rows,
                                witness_readings const& witness, bool& open) {
     auto const& channels = problem.model.about.channels;
-    std::map<std::pair<double, std::string>, std::ptrdiff_t> forced; // of one scenario
     for (std::size_t e = 0; e < rows.size(); ++e) {
         auto const& name = problem.experiments[e].name;
         auto const samples = sorted(problem.experiments[e].measurements);
-        forced.clear();
-        for (auto const& f : stored.forced)
-            if (f.scenario == name) ++forced[{f.time, f.channel}];
+        auto forced = forced_in(stored, name);
         for (std::size_t k = 0; k < rows[e].size(); ++k) {
             auto const state = rows[e][k].state;
             bool const met = witness.says(witness.met, e, k);
@@ -438,80 +420,25 @@ inline std::string state_fault(identification_problem const& problem,
     return {};
 }
 
-/// The box of a map by names; nothing where one is missing or too many are there.
-template <class Names>
-std::optional<box> box_by_names(std::map<std::string, interval> const& sides, Names const& names) {
-    if (sides.size() != names.size()) return std::nullopt;
-    std::vector<interval> result;
-    for (auto const& name : names) {
-        auto const found = sides.find(name);
-        if (found == sides.end()) return std::nullopt;
-        result.push_back(found->second);
-    }
-    return box(std::move(result));
-}
-
-/// Whether a side lies in another one that was printed and read.
-inline bool within_printed(interval const& side, interval const& printed) {
-    return side.lower() >= printed.lower() - cost_of_rounding(printed.lower(), 8) &&
-           side.upper() <= printed.upper() + cost_of_rounding(printed.upper(), 8);
-}
-inline bool within_printed(box const& x, box const& printed) {
-    for (std::size_t j = 0; j < x.size(); ++j)
-        if (!within_printed(x[j], printed[j])) return false;
-    return true;
-}
-
-/// The parameters and starts of the motion that outputs.csv shows.
-struct shown_boxes {
-    box parameters;
-    std::vector<box> starts;
-};
-
-/// Whether the motion is of the kind it is said to be: of the witness, or of a box that the result
-/// calls inside; and of this problem.
-inline std::optional<shown_boxes> boxes_of_shown(identification_problem const& problem,
-                                                 stored_identification const& stored,
-                                                 std::string& fault) {
+/// Whether the motion that outputs.csv shows is of the kind it is said to be: of the witness, or of
+/// a box that the result calls inside; and of this problem.
+inline std::optional<named_motion> shown_motion_of(identification_problem const& problem,
+                                                   stored_identification const& stored,
+                                                   std::string& fault) {
     auto const& shown = *stored.shown;
-    auto const own = box_by_names(shown.parameters, problem.choice.unknown);
-    if (!own || leaves(*own, problem.prior)) fault = "its parameters are not those of the prior";
-    std::vector<std::string> states;
-    for (auto const& s : problem.model.about.states) states.push_back(s.name);
-    shown_boxes result;
-    for (auto const& e : problem.experiments) {
-        auto const found = shown.initial.find(e.name);
-        auto const start =
-            found == shown.initial.end() ? std::nullopt : box_by_names(found->second, states);
-        if (!start || leaves(*start, e.initial))
-            fault = "its start in " + e.name + " is not allowed";
-        if (start) result.starts.push_back(*start);
-    }
-    if (!fault.empty()) return std::nullopt;
-    result.parameters = *own;
+    auto result = motion_by_names(problem, shown.parameters, shown.initial, fault);
+    if (!result) return std::nullopt;
     if (shown.source == to_string(motion_source::witness)) {
-        auto const points = [](std::map<std::string, double> const& values) {
-            std::map<std::string, interval> sides;
-            for (auto const& [name, x] : values) sides[name] = interval(x);
-            return sides;
-        };
-        auto const same = [](auto const& a, auto const& b) {
-            return std::ranges::equal(a, b, [](auto const& x, auto const& y) {
-                return x.first == y.first && x.second.lower() == y.second.lower() &&
-                       x.second.upper() == y.second.upper();
-            });
-        };
-        bool is_witness =
-            stored.witness && same(shown.parameters, points(stored.witness->parameters));
-        for (auto const& [name, start] : shown.initial) {
-            if (!is_witness) break;
-            auto const of = stored.witness->initial.find(name);
-            is_witness = of != stored.witness->initial.end() && same(start, points(of->second));
-        }
-        if (!is_witness) fault = "its parameters are not the witness's";
+        auto const same = [](box const& a, box const& b) { return subset(a, b) && subset(b, a); };
+        std::string none;
+        auto const w = stored.witness ? witness_motion(problem, stored, none) : std::nullopt;
+        if (!w || !same(w->parameters, result->parameters) ||
+            !std::ranges::equal(w->starts, result->starts, same))
+            fault = "its parameters are not the witness's";
     } else if (shown.source == to_string(motion_source::inside_box)) {
         bool const is_inside = std::ranges::any_of(stored.rows, [&](paved_box const& row) {
-            return row.verdict == box_verdict::inside && within_printed(result.parameters, row.set);
+            return row.verdict == box_verdict::inside &&
+                   std::ranges::equal(result->parameters, row.set, within_stated);
         });
         if (!is_inside) fault = "its parameters lie in no inside box";
     }
@@ -546,9 +473,8 @@ check_finding::outcome enclosed_by(std::vector<output_row> const& rows, plain_ru
             auto const stated = stated_with_rounding<I>(rows[k].model);
             bool const there = k < known.outputs.size() && known.outputs[k].defined;
             if (there && traits::disjoint(known.outputs[k].value, stated)) return outcome::refuted;
-            bool const unbounded =
-                std::isinf(rows[k].model.lower()) && std::isinf(rows[k].model.upper());
-            all = all && (unbounded || (there && traits::subset(known.outputs[k].value, stated)));
+            all = all && (is_entire(rows[k].model) ||
+                          (there && traits::subset(known.outputs[k].value, stated)));
         }
         if (all) continue;
         if (!keep_going()) return outcome::undecided;
@@ -589,16 +515,13 @@ check_outputs(identification_problem const& problem, stored_identification const
     bool open = false;
     if (fault.empty()) fault = io_detail::state_fault(problem, stored, rows, witness, open);
     if (!fault.empty()) return {what, outcome::refuted, fault};
-    auto const none = [](io_detail::output_row const& row) {
-        return std::isinf(row.model.lower()) && std::isinf(row.model.upper());
-    };
-    std::size_t stated = 0;
+    std::ptrdiff_t stated = 0;
     for (auto const& own : rows)
-        stated += own.size() - static_cast<std::size_t>(std::ranges::count_if(own, none));
+        stated += std::ranges::count_if(own, [](auto const& row) { return !is_entire(row.model); });
     if (stored.shown->source.empty() && stated > 0)
         return {what, outcome::refuted, "outputs of no motion"};
     if (!stored.shown->source.empty()) {
-        auto const boxes = io_detail::boxes_of_shown(problem, stored, fault);
+        auto const boxes = io_detail::shown_motion_of(problem, stored, fault);
         if (!boxes) return {what, outcome::refuted, "the motion of outputs.csv: " + fault};
         work_limit const in_time(seconds);
         for (std::size_t e = 0; e < rows.size(); ++e) {

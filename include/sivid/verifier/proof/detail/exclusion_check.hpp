@@ -425,9 +425,6 @@ private:
     static constexpr std::size_t most_groups = 8;
     /// So many open pieces are cut further without a run.
     static constexpr std::size_t most_leaves = 64;
-    /// A box is cut so often before it is left to others.
-    static constexpr std::size_t most_cuts = 200;
-
     /// One experiment over a region; nothing where two integrators contradict each other.
     [[nodiscard]] std::shared_ptr<response const> run(std::size_t e, box const& region) {
         ++count_;
@@ -470,7 +467,7 @@ private:
             std::vector<piece> proved;
             for (auto const& p : pieces) {
                 auto const side = side_to_cut(p.set, known);
-                if (!side || p.cuts >= most_cuts) {
+                if (!side || p.cuts >= io_detail::claim_book::most_cuts) {
                     halves.push_back(p);
                     continue;
                 }
@@ -490,48 +487,20 @@ private:
     }
 
     void split(group pieces, box const& region, response_list const& known) {
-        if (pieces.size() == 1) {
-            auto const side = side_to_cut(pieces[0].set, known);
-            if (!side || ++pieces[0].cuts > most_cuts) return book_.give_up(pieces);
-            auto const& p = pieces[0];
-            auto [low, high] = bisect(p.set, *side, mid(p.set[*side]));
-            ++book_.left[p.claim];
-            group halves{{std::move(low), p.claim, p.cuts}, {std::move(high), p.claim, p.cuts}};
+        bool const alone = pieces.size() == 1;
+        auto const side =
+            alone ? side_to_cut(region, known) : io_detail::widest_side(region, problem_->prior);
+        if (alone && (!side || pieces[0].cuts >= io_detail::claim_book::most_cuts))
+            return book_.give_up(pieces);
+        auto halves = book_.halves(std::move(pieces), region, side.value_or(0));
+        for (auto* const half : {&halves.first, &halves.second}) {
             // What is known of the whole may do for a half.
-            std::erase_if(halves, [&](piece const& half) {
-                bool const done = excludes(known, half.set);
-                if (done) book_.prove(half);
-                return done;
-            });
-            for (auto& half : halves) settle({std::move(half)});
-            return;
-        }
-        auto const widest = io_detail::widest_side(region, problem_->prior).value_or(0);
-        // Boxes that reach far across the middle are cut there: with them no region shrinks.
-        double const middle = mid(region[widest]);
-        group low, high;
-        for (auto& p : pieces) {
-            auto const& side = p.set[widest];
-            bool const across = side.lower() < middle && middle < side.upper() &&
-                                width(side) > 0.5 * width(region[widest]) && p.cuts < most_cuts;
-            if (across) {
-                auto [a, b] = bisect(p.set, widest, middle);
-                ++book_.left[p.claim];
-                low.push_back({std::move(a), p.claim, p.cuts + 1});
-                high.push_back({std::move(b), p.claim, p.cuts + 1});
+            if (alone && excludes(known, half->front().set)) {
+                book_.prove(half->front());
             } else {
-                (mid(side) <= middle ? low : high).push_back(std::move(p));
+                settle(std::move(*half));
             }
         }
-        if (low.empty() || high.empty()) { // all of them on one side: one by one
-            auto& all = low.empty() ? high : low;
-            auto const half = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-            auto& none = low.empty() ? low : high;
-            none.assign(std::make_move_iterator(half), std::make_move_iterator(all.end()));
-            all.erase(half, all.end());
-        }
-        settle(std::move(low));
-        settle(std::move(high));
     }
 
     /// The side along which the outputs spread most, against their bounds.
@@ -551,18 +520,9 @@ private:
                 }
             }
         }
-        std::optional<std::size_t> best;
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            double const middle = mid(x[j]);
-            if (!(x[j].lower() < middle && middle < x[j].upper())) continue;
-            double const own = width(x[j]) / width(problem_->prior[j]);
-            double const rank = spread[j] + 1e-3 * own;
-            if (!best || rank > spread[*best]) {
-                best = j;
-                spread[j] = rank;
-            }
-        }
-        return best;
+        return io_detail::side_to_cut(x, [&](std::size_t j) {
+            return spread[j] + 1e-3 * width(x[j]) / width(problem_->prior[j]);
+        });
     }
 
     /// The misfits of all measurements over a part, as a program, one block for each experiment.

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -456,19 +457,62 @@ struct claim_book {
     void give_up(std::vector<claim_piece> const& pieces) {
         for (auto const& p : pieces) gave_up[p.claim] = true;
     }
+
+    /// A box is cut so often before it is left to others.
+    static constexpr std::size_t most_cuts = 200;
+
+    /// Parts a group at the middle of a side of its hull. Pieces that reach far across it are cut
+    /// there: with them no region shrinks. A piece alone is cut, unless it was `most_cuts` times.
+    [[nodiscard]] std::pair<std::vector<claim_piece>, std::vector<claim_piece>>
+    halves(std::vector<claim_piece> pieces, box const& region, std::size_t side) {
+        double const middle = mid(region[side]);
+        std::vector<claim_piece> low, high;
+        for (auto& p : pieces) {
+            auto const& own = p.set[side];
+            bool const across = own.lower() < middle && middle < own.upper() &&
+                                width(own) > 0.5 * width(region[side]) && p.cuts < most_cuts;
+            if (across) {
+                auto [a, b] = bisect(p.set, side, middle);
+                ++left[p.claim];
+                low.push_back({std::move(a), p.claim, p.cuts + 1});
+                high.push_back({std::move(b), p.claim, p.cuts + 1});
+            } else {
+                (mid(own) <= middle ? low : high).push_back(std::move(p));
+            }
+        }
+        if (low.empty()) std::swap(low, high);
+        if (high.empty()) { // all of them on one side: one by one
+            auto const half = low.begin() + static_cast<std::ptrdiff_t>((low.size() + 1) / 2);
+            high.assign(std::make_move_iterator(half), std::make_move_iterator(low.end()));
+            low.erase(half, low.end());
+        }
+        return {std::move(low), std::move(high)};
+    }
 };
 
-/// The side that is widest against the prior's, of those that are wider than `least` of it.
-[[nodiscard]] inline std::optional<std::size_t> widest_side(box const& x, box const& prior,
-                                                            double least = -1) {
+/// The side of the highest rank above `least`, of those that can be cut in their middle.
+/// @param rank  of a side, by its number
+template <class Rank>
+[[nodiscard]] std::optional<std::size_t> side_to_cut(box const& x, Rank const& rank,
+                                                     double least = -1) {
     std::optional<std::size_t> best;
     for (std::size_t j = 0; j < x.size(); ++j) {
-        double const whole = width(prior[j]);
-        if (is_one_number(prior[j]) || !(width(x[j]) / whole > least)) continue;
-        least = width(x[j]) / whole;
+        double const middle = mid(x[j]);
+        if (!(x[j].lower() < middle && middle < x[j].upper())) continue;
+        double const own = rank(j);
+        if (!(own > least)) continue;
+        least = own;
         best = j;
     }
     return best;
+}
+/// The side that is widest against the prior's, of those that are wider than `least` of it.
+[[nodiscard]] inline std::optional<std::size_t> widest_side(box const& x, box const& prior,
+                                                            double least = -1) {
+    auto const share = [&](std::size_t j) {
+        return is_one_number(prior[j]) ? -1 : width(x[j]) / width(prior[j]);
+    };
+    return side_to_cut(x, share, least);
 }
 
 } // namespace io_detail
@@ -534,20 +578,10 @@ private:
     /// The side along which the outputs of the piece spread most, if it can be cut.
     [[nodiscard]] std::optional<std::size_t> side_to_cut(box const& x,
                                                          knowledge const* known) const {
-        std::optional<std::size_t> best;
-        double most = -1;
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            double const w = x[j].upper() - x[j].lower();
-            double const middle = mid(x[j]);
-            if (!(x[j].lower() < middle && middle < x[j].upper())) continue;
-            double const spread =
-                known != nullptr ? campaign_.spread(*known, x, j) : w / width(prior_[j]);
-            if (spread > most) {
-                most = spread;
-                best = j;
-            }
-        }
-        return best;
+        return io_detail::side_to_cut(x, [&](std::size_t j) {
+            return known != nullptr ? campaign_.spread(*known, x, j)
+                                    : (x[j].upper() - x[j].lower()) / width(prior_[j]);
+        });
     }
 
     void settle(group pieces) {
@@ -589,29 +623,15 @@ private:
         if (!rest.empty() && !split(rest, region, &known)) book_.give_up(rest);
     }
 
-    /// A group by the median of its centres, one box by a cut. @returns false if neither is
-    /// possible.
+    /// @returns false where that is not possible
     bool split(group& pieces, box const& region, knowledge const* known) {
-        if (pieces.size() == 1) {
-            auto const side = side_to_cut(pieces[0].set, known);
-            if (!side) return false;
-            auto const& x = pieces[0].set;
-            auto [low, high] = bisect(x, *side, mid(x[*side]));
-            auto const claim = pieces[0].claim;
-            ++book_.left[claim];
-            settle({{std::move(low), claim}});
-            settle({{std::move(high), claim}});
-            return true;
-        }
-        auto const widest = io_detail::widest_side(region, prior_).value_or(0);
-        auto const half = pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2);
-        std::nth_element(pieces.begin(), half, pieces.end(), [&](piece const& a, piece const& b) {
-            return mid(a.set[widest]) < mid(b.set[widest]);
-        });
-        group upper(std::make_move_iterator(half), std::make_move_iterator(pieces.end()));
-        pieces.erase(half, pieces.end());
-        settle(std::move(pieces));
-        settle(std::move(upper));
+        bool const alone = pieces.size() == 1;
+        auto const side =
+            alone ? side_to_cut(region, known) : io_detail::widest_side(region, prior_);
+        if (alone && (!side || pieces[0].cuts >= io_detail::claim_book::most_cuts)) return false;
+        auto [low, high] = book_.halves(std::move(pieces), region, side.value_or(0));
+        settle(std::move(low));
+        settle(std::move(high));
         return true;
     }
 
