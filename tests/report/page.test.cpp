@@ -48,7 +48,7 @@ TEST_CASE("page: every element, well-formed, in order, with ids that do not clas
                  .title = "Bars.",
                  .caption = "twice",
                  .layout = panel_layout::wide});
-    p.add(figure{.panels = {draw_heat_map(map, {.width = 1000})},
+    p.add(figure{.panels = {draw_heat_map(map)},
                  .title = "Heat.",
                  .caption = "",
                  .layout = panel_layout::wide});

@@ -79,7 +79,7 @@ TEST_CASE("a ranking shows what measurements are worth") {
     problem.experiments = {e};
     auto const found = sivid::rank(problem);
     auto const worth = sivid::rank_measurements(problem, {.times = 2});
-    auto const text = ranking_page(problem, found, {.dataset = "d"}, &worth).str();
+    auto const text = ranking_page(problem, found, {.dataset = "d"}, worth).str();
     CHECK(markup_error(body_of(text)) == "");
     CHECK_THAT(text, ContainsSubstring("Which measurements matter") &&
                          ContainsSubstring("nothing changes") &&
@@ -87,7 +87,7 @@ TEST_CASE("a ranking shows what measurements are worth") {
     auto none = worth;
     none.groups.clear();
     none.explained = sivid::verdict::inconsistent;
-    CHECK_THAT(ranking_page(problem, found, {.dataset = "d"}, &none).str(),
+    CHECK_THAT(ranking_page(problem, found, {.dataset = "d"}, none).str(),
                ContainsSubstring("nothing can grow"));
 }
 

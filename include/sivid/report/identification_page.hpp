@@ -79,17 +79,9 @@ inline void add_parameters(page& out, identification_view const& v) {
              .data = paving_attributes(pavings, 3000, words)};
     for (paving_projection const& p : pavings) {
         std::string const name = p.y.label + " against " + p.x.label;
-        auto const zoom = zoom_window(p);
-        f.panels.push_back(draw_paving_plot(
-            p,
-            {.width = 440, .height = 310, .title = name + ": " + words.whole, .mark_zoom = true}));
-        if (zoom) {
-            f.panels.push_back(draw_paving_plot(p, {.width = 440,
-                                                    .height = 310,
-                                                    .title = name + ": closer",
-                                                    .x_window = zoom->x,
-                                                    .y_window = zoom->y}));
-        }
+        f.panels.push_back(draw_paving_plot(p, name + ": " + words.whole));
+        if (auto const closer = zoom_window(p))
+            f.panels.push_back(draw_paving_plot(p, name + ": closer", closer));
     }
     return f;
 }
@@ -200,7 +192,7 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
     }
     out.add(measured);
     if (s.plane) {
-        out.add(figure{.panels = {draw_plane_plot(*s.plane, {.width = 1000, .height = 330})},
+        out.add(figure{.panels = {draw_plane_plot(*s.plane)},
                        .legend = plane_plot_legend(*s.plane),
                        .title = "The motion seen from above, " + which + ".",
                        .caption = "Equal scales on both axes. " + tube + reference,

@@ -4,6 +4,7 @@
 
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/number/decimal.hpp>
+#include <sivid/number/decimal_output.hpp>
 #include <sivid/number/interval.hpp>
 
 #include <algorithm>
@@ -92,12 +93,6 @@ struct scaled_decimal {
     int exponent = 0;
 };
 
-namespace detail {
-
-inline constexpr std::string_view minus_sign = "\xE2\x88\x92";
-
-} // namespace detail
-
 // Numbers as a reader sees them. Proven bounds are rounded outward, so that the printed interval
 // contains the binary one; intervals all of whose points have a proven property inward. Decimals
 // read as the user gave them (`given_text`) are printed as given.
@@ -111,25 +106,11 @@ struct number_format {
 
 namespace detail {
 
-inline bool needs_power(int lead) { return lead < -4 || lead > 6; }
-
-} // namespace detail
-
-namespace detail {} // namespace detail
-
-namespace detail {
+inline constexpr std::string_view minus_sign = "\xE2\x88\x92";
 
 /// Position of the leading digit: |x| = d.ddd * 10^result (0 for zero).
 inline int leading_exponent(double x) {
-    char text[32];
-    auto const end =
-        std::to_chars(text, text + sizeof text, std::fabs(x), std::chars_format::scientific, 16)
-            .ptr;
-    std::string_view const all{text, static_cast<std::size_t>(end - text)};
-    std::string_view const tail = all.substr(all.find('e') + 1);
-    int value = 0;
-    std::from_chars(tail.data() + 1, tail.data() + tail.size(), value);
-    return x == 0 ? 0 : tail.front() == '-' ? -value : value;
+    return x == 0 ? 0 : sivid::detail::exact_digits(std::fabs(x)).point - 1;
 }
 
 inline std::string superscript(int value) {
@@ -151,41 +132,24 @@ inline std::string superscript(int value) {
 /// Rounds a finite double to a multiple of 10^quantum in the given direction.
 /// @guarantee  down: result <= x, up: result >= x, as real numbers; the error is below 10^quantum.
 [[nodiscard]] inline scaled_decimal round_decimal(double x, int quantum, rounding way) {
-    // 767 significant digits write any double exactly.
-    char text[800];
-    auto const end =
-        std::to_chars(text, text + sizeof text, std::fabs(x), std::chars_format::scientific, 766)
-            .ptr;
-    std::string_view const all{text, static_cast<std::size_t>(end - text)};
-    std::string exact;
-    for (char const c : all.substr(0, all.find('e')))
-        if (c != '.') exact += c;
-    std::string_view const tail = all.substr(all.find('e') + 1);
-    int lead = 0;
-    std::from_chars(tail.data() + 1, tail.data() + tail.size(), lead);
-    lead = tail.front() == '-' ? -lead : lead;
-
-    int const kept = lead - quantum + 1;
+    auto const [exact, point] = sivid::detail::exact_digits(std::fabs(x));
+    int const kept = point - quantum;
     scaled_decimal out{.negative = std::signbit(x) && x != 0, .digits = "0", .exponent = quantum};
     std::string dropped = exact;
     if (kept > 0) {
         auto const n = static_cast<std::size_t>(kept);
-        out.digits = exact.substr(0, std::min(n, exact.size()));
-        out.digits.append(n > exact.size() ? n - exact.size() : 0, '0');
-        dropped = n < exact.size() ? exact.substr(n) : "";
+        out.digits += exact.substr(0, n); // behind a 0, to which a carry may go
+        out.digits.resize(n + 1, '0');
+        dropped.erase(0, n);
     }
     bool const lost = dropped.find_first_not_of('0') != std::string::npos;
     bool const away = way == rounding::nearest
                           ? kept >= 0 && !dropped.empty() && dropped.front() >= '5'
                           : lost && ((way == rounding::up) != out.negative);
     if (away) {
-        auto place = out.digits.size();
-        while (place > 0 && out.digits[place - 1] == '9') out.digits[--place] = '0';
-        if (place == 0) {
-            out.digits.insert(out.digits.begin(), '1');
-        } else {
-            ++out.digits[place - 1];
-        }
+        auto place = out.digits.size() - 1;
+        while (out.digits[place] == '9') out.digits[place--] = '0';
+        ++out.digits[place];
     }
     return out;
 }
@@ -282,6 +246,8 @@ inline io_detail::code_point shown_code_point(std::string_view text) {
 }
 
 namespace detail {
+
+inline bool needs_power(int lead) { return lead < -4 || lead > 6; }
 
 inline std::string special_text(double x) {
     return std::isnan(x) ? "?" : x > 0 ? "\xE2\x88\x9E" : std::string{minus_sign} + "\xE2\x88\x9E";

@@ -9,6 +9,7 @@
 #include <sivid/report/identification_view.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace sivid::report {
@@ -42,17 +43,19 @@ struct stored_page {
                                                               verification const& found,
                                                               prediction const& tubes,
                                                               decision_page_options const& o);
-[[nodiscard]] SIVID_DECL stored_page stored_control_page(
-    stored_prediction const& about, requirement const& asked, gain_set const& found,
-    verification const* proof, prediction const* tubes, decision_page_options const& o);
+[[nodiscard]] SIVID_DECL stored_page stored_control_page(stored_prediction const& about,
+                                                         requirement const& asked,
+                                                         gain_set const& found,
+                                                         std::optional<verification> const& proof,
+                                                         std::optional<prediction> const& tubes,
+                                                         decision_page_options const& o);
 [[nodiscard]] SIVID_DECL stored_page stored_design_page(stored_prediction const& about,
                                                         design_answer const& a,
-                                                        prediction const* tubes,
+                                                        std::optional<prediction> const& tubes,
                                                         decision_page_options const& o);
-[[nodiscard]] SIVID_DECL stored_page stored_ranking_page(identification_problem const& about,
-                                                         ranking const& found,
-                                                         decision_page_options const& o,
-                                                         measurement_ranking const* measurements);
+[[nodiscard]] SIVID_DECL stored_page stored_ranking_page(
+    identification_problem const& about, ranking const& found, decision_page_options const& o,
+    std::optional<measurement_ranking> const& measurements);
 
 /// Makes a page of its data anew. It says what the data say: nothing is proved.
 /// @throws input_error  where the file is not there, or its data are none of a page

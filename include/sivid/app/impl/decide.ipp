@@ -172,12 +172,11 @@ inline int run_control(robot const& r, decision_command const& c) {
     auto const [proof, tubes] = prove_gains(q, gains, found, c, left, page);
     progress.finish();
     if (!c.out.empty()) {
-        auto const* const proved = proof ? &*proof : nullptr;
         file_set files(c.out);
         files.add("gains.csv", gains_csv(found));
-        report::stored_control_page(*about, asked, found, proved, tubes ? &*tubes : nullptr, page)
-            .add_to(files);
-        files.add("control.json", control_json(*about, asked, found, proved, task.json_options()));
+        report::stored_control_page(*about, asked, found, proof, tubes, page).add_to(files);
+        files.add("control.json", control_json(*about, asked, found, proof ? &*proof : nullptr,
+                                               task.json_options()));
         files.commit();
     }
     print_gains(q, found, proof, c);

@@ -327,7 +327,7 @@ inline figure misfit_figure(diagnosis_view const& v) {
     auto after = after_words(v);
     if (after.size() > longest) after = "with these effects";
     for (pair const& p : maps) {
-        heat_map_options o{.width = 540, .title = {}, .largest = largest, .key = f.panels.empty()};
+        heat_map_options o{.title = {}, .largest = largest, .key = f.panels.empty()};
         if (!p.before.times.empty()) {
             o.title = p.name + ": model as it is";
             f.panels.push_back(draw_heat_map(p.before, o));

@@ -29,7 +29,6 @@ struct bar {
 };
 
 struct bar_chart_options {
-    double width = 740;
     std::string title{};
     std::string quantity{}; ///< the axis label
     std::string unit{};
@@ -57,7 +56,6 @@ struct heat_map {
 };
 
 struct heat_map_options {
-    double width = 740;
     std::string title{};
     double largest = 0; ///< the colours' end is not below it: lets maps share their colours
     bool key = true;    ///< draw the colour bar
@@ -97,9 +95,9 @@ void draw_grid(svg& out, std::vector<tick> const& ticks, Place const& px, double
 /// Horizontal bars of bounded quantities, with their numbers, and a threshold line.
 [[nodiscard]] inline svg draw_bar_chart(std::vector<bar> const& bars,
                                         bar_chart_options const& o = {}) {
-    double const top = 44, pitch = 28;
+    double const width = 900, top = 44, pitch = 28;
     double const bottom = detail::rows_end(top, pitch, bars.size());
-    svg out{o.width, bottom + 42, o.title};
+    svg out{width, bottom + 42, o.title};
     double label_width = 30, note_width = 20;
     range shown{0, 0};
     for (bar const& b : bars) {
@@ -109,8 +107,8 @@ void draw_grid(svg& out, std::vector<tick> const& ticks, Place const& px, double
     }
     if (o.threshold) shown = hull(shown, *o.threshold);
     shown = axis_range({shown.lo, shown.hi + 0.04 * (shown.hi - shown.lo)});
-    double const left = std::min(label_width + 12, o.width * 0.4);
-    double const right = std::max(o.width - note_width, left + 60);
+    double const left = std::min(label_width + 12, width * 0.4);
+    double const right = std::max(width - note_width, left + 60);
     auto const px = [&](double v) {
         double const s = (v / 2 - shown.lo / 2) / (shown.hi / 2 - shown.lo / 2);
         return left + (right - left) * (std::isnan(s) ? 0.0 : std::clamp(s, 0.0, 1.0));
@@ -520,14 +518,14 @@ inline void draw_colour_bar(svg& out, heat_map const& m, heat_frame const& at,
 /// Channels against time in colour: blue up to the threshold, orange with a cross above it, hatched
 /// where nothing is known; with a colour bar.
 [[nodiscard]] inline svg draw_heat_map(heat_map const& m, heat_map_options const& o = {}) {
-    double const top = 34, pitch = 26;
+    double const width = 540, top = 34, pitch = 26;
     double const bottom = detail::rows_end(top, pitch, m.rows.size());
-    svg out{o.width, bottom + (o.key ? 84 : 42), o.title};
+    svg out{width, bottom + (o.key ? 84 : 42), o.title};
     double label_width = 30;
     for (std::string const& name : m.rows) {
         label_width = std::max(label_width, approximate_text_width(shorten(name, 24), 12));
     }
-    double const left = std::min(label_width + 12, o.width * 0.4), right = o.width - 14;
+    double const left = std::min(label_width + 12, width * 0.4), right = width - 14;
     range span;
     for (double const t : m.times) span = hull(span, t);
     detail::heat_frame const at{left, right, top, pitch, bottom, axis_range(span)};

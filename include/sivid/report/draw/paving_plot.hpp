@@ -70,17 +70,6 @@ struct paving_projection {
     std::optional<point> witness{}; ///< a verified point
 };
 
-struct paving_plot_options {
-    double width = 360;
-    double height = 300;
-    std::string title{};
-    range x_window{}; ///< empty: the prior
-    range y_window{};
-    bool mark_zoom = false;           ///< outline the window of `zoom_window`
-    std::size_t finest = 640;         ///< cells a side before the text limit
-    std::size_t most_bytes = 150'000; ///< of the regions' outlines; coarser cells until it is met
-};
-
 struct plane_window {
     range x{};
     range y{};
@@ -124,12 +113,6 @@ struct plane_series {
     std::vector<plane_box> measured{}; ///< measured position intervals
     std::vector<point> reference{};    ///< not validated
     std::vector<pose> poses{};         ///< not validated; drawn as small arrowheads
-};
-
-struct plane_plot_options {
-    double width = 740;
-    double height = 300;
-    std::string title{};
 };
 
 namespace detail {
@@ -362,22 +345,24 @@ paving_plot_legend(std::vector<paving_projection> const& all, paving_words const
                       {zoom, {symbol::window, "what the closer look shows"}}});
 }
 
-/// The projection of a paving within a window. However many boxes come in, the text stays within
-/// `most_bytes` and a small constant: cells of one region are joined, and coarser cells are taken
-/// until they fit.
-[[nodiscard]] inline svg draw_paving_plot(paving_projection const& p,
-                                          paving_plot_options const& o = {}) {
-    svg out{o.width, o.height,
-            (o.title.empty() ? p.y.label + " against " + p.x.label : o.title) + ": paving"};
-    axes const a{{p.x.label, p.x.unit, is_empty(o.x_window) ? p.x.bounds : o.x_window},
-                 {p.y.label, p.y.unit, is_empty(o.y_window) ? p.y.bounds : o.y_window},
-                 {.width = o.width, .height = o.height, .title = o.title, .grid = false}};
+/// The projection of a paving, on a closer window of it or whole with that of `zoom_window`
+/// outlined. However many boxes come in, the text stays within 150 kB and a small constant: cells
+/// of one region are joined, and coarser cells are taken until they fit.
+[[nodiscard]] inline svg draw_paving_plot(paving_projection const& p, std::string const& title,
+                                          std::optional<plane_window> const& closer = {}) {
+    constexpr double width = 440, height = 310;
+    constexpr std::size_t finest = 640;         // cells a side before the text limit
+    constexpr std::size_t most_bytes = 150'000; // of the regions' outlines
+    svg out{width, height, title + ": paving"};
+    axes const a{{p.x.label, p.x.unit, closer ? closer->x : p.x.bounds},
+                 {p.y.label, p.y.unit, closer ? closer->y : p.y.bounds},
+                 {.width = width, .height = height, .title = title, .grid = false}};
     a.open(out);
     out.rect(a.left(), a.top(), a.right() - a.left(), a.bottom() - a.top(),
              {.fill = palette::outside});
 
     path_data shapes[4];
-    for (std::size_t cells = std::max<std::size_t>(o.finest, 4);; cells /= 2) {
+    for (std::size_t cells = finest;; cells /= 2) {
         region_raster const raster = project_paving(p.boxes, a.x_bounds(), a.y_bounds(), cells);
         for (path_data& d : shapes) d = {};
         for (region_rect const& r : merge_cells(raster)) {
@@ -387,7 +372,7 @@ paving_plot_legend(std::vector<paving_projection> const& all, paving_words const
         }
         if (cells <= 8 ||
             shapes[1].str().size() + shapes[2].str().size() + shapes[3].str().size() <=
-                o.most_bytes) {
+                most_bytes) {
             break;
         }
     }
@@ -399,7 +384,7 @@ paving_plot_legend(std::vector<paving_projection> const& all, paving_words const
         {.fill = region_fill(out, symbol::undecided), .stroke = palette::undecided, .width = 0.4});
     out.path(shapes[3], {.fill = palette::inside, .stroke = palette::inside, .width = 0.4});
 
-    if (auto const w = o.mark_zoom ? zoom_window(p) : std::nullopt) {
+    if (auto const w = closer ? std::nullopt : zoom_window(p)) {
         double const x = a.px(w->x.lo), y = a.py(w->y.hi);
         double const wide = a.px(w->x.hi) - x, high = a.py(w->y.lo) - y;
         out.rect(x - 3, y - 3, wide + 6, high + 6,
@@ -492,7 +477,7 @@ inline void add_box(path_data& d, axes const& a, plane_box const& b, double leas
 }
 
 /// The axes of a plot of a plane.
-inline axes plane_axes(plane_series const& s, plane_plot_options const& o) {
+inline axes plane_axes(plane_series const& s, double width, double height) {
     range xs;
     range ys;
     auto const include = [&](plane_box const& b) {
@@ -513,7 +498,7 @@ inline axes plane_axes(plane_series const& s, plane_plot_options const& o) {
     }
     return {{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
             {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
-            {.width = o.width, .height = o.height, .title = o.title, .equal_aspect = true}};
+            {.width = width, .height = height, .equal_aspect = true}};
 }
 
 inline void draw_start(svg& out, axes const& a, point const& start) {
@@ -529,9 +514,10 @@ inline void draw_start(svg& out, axes const& a, point const& start) {
 /// A motion seen from above: the proven boxes step by step, the measured positions and a
 /// reference line that is not validated; equal scales on both axes. Beyond some thousand boxes
 /// neighbours are joined, which only enlarges them.
-[[nodiscard]] inline svg draw_plane_plot(plane_series const& s, plane_plot_options const& o = {}) {
-    svg out{o.width, o.height, o.title.empty() ? s.y_name + " against " + s.x_name : o.title};
-    axes const a = detail::plane_axes(s, o);
+[[nodiscard]] inline svg draw_plane_plot(plane_series const& s) {
+    double const width = 1000, height = 330;
+    svg out{width, height, s.y_name + " against " + s.x_name};
+    axes const a = detail::plane_axes(s, width, height);
     a.open(out);
     constexpr std::size_t most_boxes = 4000;
     path_data boxes;

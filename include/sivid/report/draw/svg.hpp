@@ -213,18 +213,14 @@ public:
         return *this;
     }
     /// A fill of parallel diagonal lines on a base colour. @returns a paint value for `paint::fill`
-    std::string hatch(std::string_view base, std::string_view ink, double spacing = 5) {
-        std::string const s = coordinate(spacing);
-        return pattern(base, spacing,
-                       "<path d=\"M0 0V" + s + "\" stroke=\"" + escape(ink) +
-                           "\" stroke-width=\"1.6\"/>",
+    std::string hatch(std::string_view base, std::string_view ink) {
+        return pattern(base,
+                       "<path d=\"M0 0V5\" stroke=\"" + escape(ink) + "\" stroke-width=\"1.6\"/>",
                        " patternTransform=\"rotate(45)\"");
     }
     /// A fill of dots on a base colour. @returns a paint value for `paint::fill`
-    std::string dots(std::string_view base, std::string_view ink, double spacing = 5) {
-        return pattern(base, spacing,
-                       "<circle" + attribute("cx", spacing / 2) + attribute("cy", spacing / 2) +
-                           " r=\"1\" fill=\"" + escape(ink) + "\"/>",
+    std::string dots(std::string_view base, std::string_view ink) {
+        return pattern(base, "<circle cx=\"2.5\" cy=\"2.5\" r=\"1\" fill=\"" + escape(ink) + "\"/>",
                        "");
     }
 
@@ -282,9 +278,9 @@ private:
         return *this;
     }
     // Equal patterns share one definition.
-    std::string pattern(std::string_view base, double spacing, std::string const& mark,
+    std::string pattern(std::string_view base, std::string const& mark,
                         std::string_view transform) {
-        std::string const size = attribute("width", spacing) + attribute("height", spacing);
+        std::string const size = " width=\"5\" height=\"5\"";
         std::string const rest = " patternUnits=\"userSpaceOnUse\"" + size +
                                  std::string{transform} + "><rect" + size + " fill=\"" +
                                  escape(base) + "\"/>" + mark + "</pattern>";

@@ -68,10 +68,9 @@ struct time_plot_options {
     double width = 360;
     double height = 230;
     std::string title{};
-    range time{};                   ///< empty: what the data need
-    range values{};                 ///< likewise
-    bool legend = false;            ///< draw the legend below (for a picture that stands alone)
-    std::size_t most_samples = 400; ///< more are thinned evenly; outliers are always drawn
+    range time{};        ///< empty: what the data need
+    range values{};      ///< likewise
+    bool legend = false; ///< draw the legend below (for a picture that stands alone)
 };
 
 /// The values worth showing: regular measurements and the better lines decide; the tube, outliers
@@ -169,9 +168,11 @@ inline axes time_axes(channel_series const& c, time_plot_options const& o, axis 
             {.width = o.width, .height = o.height, .title = o.title}};
 }
 
+inline constexpr std::size_t most_samples = 400; // more are thinned evenly, but for outliers
+
 /// So many samples for each that is drawn.
-inline std::size_t stride_of(channel_series const& c, time_plot_options const& o) {
-    return c.measured.size() / std::max<std::size_t>(o.most_samples, 1) + 1;
+inline std::size_t stride_of(channel_series const& c) {
+    return c.measured.size() / most_samples + 1;
 }
 
 /// Draws the tube: one outline for each run without a gap; pieces thinner than half a unit of the
@@ -349,7 +350,7 @@ inline void say_stride(svg& out, axes const& a, std::size_t stride) {
     detail::draw_windows(out, a, c);
     detail::draw_line(out, a, c.reference, {.stroke = palette::truth, .width = 1.2, .dash = "5 3"});
     // Lines that are compared are drawn above the bars.
-    auto const stride = detail::stride_of(c, o);
+    auto const stride = detail::stride_of(c);
     auto const marked =
         detail::draw_regular(out, a, c, stride, compared ? palette::frame : palette::measurement);
     detail::draw_line(out, a, c.before, line_before_paint);
@@ -358,7 +359,7 @@ inline void say_stride(svg& out, axes const& a, std::size_t stride) {
         measured_sample const& m = *marked[i];
         if (!compared)
             draw_measured(out, a.px(m.time), a.py(m.value.lo), a.py(m.value.hi), palette::outlier);
-        if (i < 4 * o.most_samples) {
+        if (i < 4 * detail::most_samples) {
             detail::draw_outlier(out, a, m, approximate_middle(m.value), detail::sample_tip(c, m));
         }
     }
@@ -408,7 +409,7 @@ inline void say_stride(svg& out, axes const& a, std::size_t stride) {
                  .move(a.left(), a.py(-1))
                  .line(a.right(), a.py(-1)),
              {.stroke = palette::ink, .width = 1.1});
-    auto const stride = detail::stride_of(c, o);
+    auto const stride = detail::stride_of(c);
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < c.measured.size(); ++i) {
         measured_sample const& m = c.measured[i];

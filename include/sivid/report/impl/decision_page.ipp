@@ -386,8 +386,9 @@ SIVID_DECL std::string gain_sentence(gain_set const& found) {
 }
 
 SIVID_DECL page control_page(stored_prediction const& about, requirement const& asked,
-                             gain_set const& found, verification const* proof,
-                             prediction const* tubes, decision_page_options const& o) {
+                             gain_set const& found, std::optional<verification> const& proof,
+                             std::optional<prediction> const& tubes,
+                             decision_page_options const& o) {
     page out{{.kind = "Control law",
               .title = o.law,
               .lead = asked.text + ". " + o.scenario + ", from " + o.dataset}};
@@ -404,15 +405,15 @@ SIVID_DECL page control_page(stored_prediction const& about, requirement const& 
         {"proved", at_least_percent(paving.inner_volume().lower()), "of the ranges of the gains"});
     cards.push_back({"excluded", detail::excluded_percent(paving),
                      "each violates it for a parameter that the data allow"});
-    if (proof != nullptr)
+    if (proof)
         cards.push_back({"robustness", "≥ " + rounded_text(proof->found.low, rounding::down),
                          "of the suggested gains"});
     detail::add_effort(out, cards, found.seconds, {}, found.integrations);
     detail::add_gains(out, found);
-    if (found.suggested && proof != nullptr) {
+    if (found.suggested && proof) {
         out.section("With " + detail::named(found.names, *found.suggested));
         out.prose(answer_sentence(about, *proof));
-        if (tubes != nullptr) {
+        if (tubes) {
             detail::add_margins(out, asked, *tubes, o);
             detail::add_motions(out, *tubes, o);
         }
@@ -584,7 +585,8 @@ SIVID_DECL std::string design_sentence(design_answer const& a) {
 }
 
 SIVID_DECL page design_page(stored_prediction const& about, design_answer const& a,
-                            prediction const* tubes, decision_page_options const& o) {
+                            std::optional<prediction> const& tubes,
+                            decision_page_options const& o) {
     page out{{.kind = "Design of an experiment",
               .title = detail::goal_texts(a),
               .lead = o.scenario + ", from " + o.dataset +
@@ -610,7 +612,7 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
         detail::add_promises(out, a, *best->promised);
         detail::add_inputs(out, about, *best, a.varied);
         detail::add_plan(out, about, a);
-        if (tubes != nullptr) detail::add_motions(out, *tubes, o);
+        if (tubes) detail::add_motions(out, *tubes, o);
     }
     if (!a.found.tried.empty()) detail::add_tried(out, a);
     auto assumptions = decision_assumptions(about);
@@ -722,8 +724,7 @@ inline void add_worth(page& out, identification_problem const& about,
     auto const sides = sivid::joined(found.coordinates);
     if (!bars.empty())
         out.add(
-            figure{.panels = {draw_bar_chart(bars, {.width = 900,
-                                                    .title = "Growth without them",
+            figure{.panels = {draw_bar_chart(bars, {.title = "Growth without them",
                                                     .quantity = "what is added to the volume",
                                                     .unit = "%"})},
                    .title = "What is added to the set of parameters without a group of "
@@ -738,7 +739,7 @@ inline void add_worth(page& out, identification_problem const& about,
 
 SIVID_DECL page ranking_page(identification_problem const& about, ranking const& found,
                              decision_page_options const& o,
-                             measurement_ranking const* measurements) {
+                             std::optional<measurement_ranking> const& measurements) {
     page out{{.kind = "Ranking",
               .title = o.scenario.empty() ? o.dataset : o.scenario,
               .lead = "How far can each parameter alone move the measurements?"}};
@@ -770,8 +771,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
             t.rows.push_back({experiment, channel, name, effect_text(e), text});
         }
         if (bars.empty()) continue;
-        f.panels.push_back(draw_bar_chart(bars, {.width = 900,
-                                                 .title = channel + ", " + experiment,
+        f.panels.push_back(draw_bar_chart(bars, {.title = channel + ", " + experiment,
                                                  .quantity = "effect",
                                                  .unit = "error bounds",
                                                  .threshold = 1,
@@ -780,7 +780,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
     out.add(f);
     t.caption = "Place: among the parameters; one number where the bounds certify it.";
     out.add(t);
-    if (measurements != nullptr) detail::add_worth(out, about, *measurements);
+    if (measurements) detail::add_worth(out, about, *measurements);
     out.section("Over what");
     table prior{.columns = columns("*parameter|#prior")};
     for (std::size_t j = 0; j < about.prior.size(); ++j)

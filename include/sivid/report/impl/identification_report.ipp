@@ -65,8 +65,7 @@ inline std::string direction_text(sensitive_direction const& d,
 
 } // namespace detail
 
-SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found,
-                                                          std::size_t directions) {
+SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found) {
     auto const count = [](std::size_t n, std::string const& what) {
         return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
     };
@@ -103,7 +102,7 @@ SIVID_DECL std::vector<std::string> identifiability_words(identifiability const&
         lines.push_back("these act nearly through " +
                         joined(found.nearly_fixed, ", ", &fixed_formula::formula) + " alone");
     std::size_t const told = std::min(found.approximate_rank, found.directions.size());
-    for (std::size_t k = told - std::min(told, directions); k < told; ++k) {
+    for (std::size_t k = told - std::min<std::size_t>(told, 3); k < told; ++k) {
         auto const& d = found.directions[k];
         lines.push_back("along " + detail::direction_text(d, found.unknowns) +
                         " of the prior's width an output moves by " +
