@@ -9,7 +9,7 @@
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/run/run_reach.hpp>
-#include <sivid/report/identification_page.hpp>
+#include <sivid/report/identification_view.hpp>
 #include <sivid/report/number_text.hpp>
 
 #include <cstddef>

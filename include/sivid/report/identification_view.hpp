@@ -3,6 +3,7 @@
 #define SIVID_REPORT_IDENTIFICATION_VIEW_HPP
 
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/paving/strategy/contractor.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/number_text.hpp>
@@ -63,14 +64,6 @@ struct statistics_view {
     std::vector<std::string> why{}; ///< why little is excluded, and what to change
 };
 
-/// What was tried before the search, in words.
-struct tried_view {
-    std::string by{};
-    std::string outcome{}; ///< "gained: 41 % left"
-    std::string why{};     ///< it was tried, or not
-    std::string effort{};  ///< empty: it was not tried
-};
-
 /// One way to solve the same problem, for comparison.
 struct comparison_row {
     std::string name{};
@@ -105,7 +98,7 @@ struct identification_view {
     std::vector<std::string> warnings{};
     std::vector<outlier_view> outliers{};
     statistics_view statistics{};
-    std::vector<tried_view> tried{};
+    contraction_journal tried{}; ///< before the search
     std::vector<scenario_view> scenarios{};
     std::string tube_meaning{};      ///< what the drawn enclosures enclose
     std::string reference_meaning{}; ///< what the reference line is

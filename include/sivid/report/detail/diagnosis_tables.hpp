@@ -187,16 +187,15 @@ inline table causes_table(diagnosis_view const& v, std::size_t most = 12) {
     table t{.columns = columns("candidate|verdict|parameter|#value|#proved range|#prior|unit")};
     auto const answer = answer_of(v);
     for (cause const* c : foremost(v, most)) {
+        auto const look = look_of(c->verdict);
         bool first = true;
         for (auto const& [e, verified] : parameters_of(*c)) {
             if (c == answer && first) t.chosen_row = t.rows.size();
-            t.rows.push_back({first ? names_of(c->effects) : "",
-                              first ? kept_together(std::string{state_sign(c->verdict)} + ' ' +
-                                                    std::string{state_words(c->verdict)})
-                                    : "",
-                              e.name, value_text(e, verified), hull_text(e),
-                              e.prior ? given_text(e.prior) : "",
-                              kept_together(unit_text(e.unit))});
+            t.rows.push_back(
+                {first ? names_of(c->effects) : "",
+                 first ? kept_together(std::string{look.sign} + ' ' + std::string{look.words}) : "",
+                 e.name, value_text(e, verified), hull_text(e), e.prior ? given_text(e.prior) : "",
+                 kept_together(unit_text(e.unit))});
             first = false;
         }
     }

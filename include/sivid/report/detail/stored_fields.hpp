@@ -27,7 +27,7 @@ inline constexpr std::size_t fields_of =
              constant_at_end, unexplained_remainder, promised_width, channel_effects,
              dependence_structure>
         ? 3
-    : one_of<T, measured_sample, paving_projection, outlier_view, tried_view, run_reach::cause,
+    : one_of<T, measured_sample, paving_projection, outlier_view, run_reach::cause,
              named_combination, next_experiment, simulated_line, violating_motion,
              experiment_design, manoeuvre_setting, exact_measurements, combination,
              measurement_worth, measurement_group, model_description::state,

@@ -153,31 +153,37 @@ void draw_grid(svg& out, std::vector<tick> const& ticks, Place const& px, double
     return out;
 }
 
-[[nodiscard]] inline std::string_view state_sign(cause_verdict s) {
-    return s == cause_verdict::explains   ? "\xE2\x9C\x93"
-           : s == cause_verdict::excluded ? "\xE2\x9C\x95"
-                                          : "?";
-}
+/// How a verdict is shown.
+struct verdict_look {
+    std::string_view sign, words;
+    std::string_view colour;
+    std::string_view ink; ///< of the sign: dark enough for a letter
+};
 
-[[nodiscard]] inline std::string_view state_words(cause_verdict s) {
-    return s == cause_verdict::explains   ? "explains (proved)"
-           : s == cause_verdict::excluded ? "excluded (proved)"
-                                          : "open";
+[[nodiscard]] inline verdict_look look_of(cause_verdict s) {
+    if (s == cause_verdict::explains)
+        return {"\xE2\x9C\x93", "explains (proved)", palette::inside, palette::inside};
+    if (s == cause_verdict::excluded)
+        return {"\xE2\x9C\x95", "excluded (proved)", palette::outlier, palette::outlier_ink};
+    return {"?", "open", palette::frame, palette::muted_ink};
 }
 
 namespace detail {
 
-/// Linear from 0 where all bars are of one size, else logarithmic.
-class inflation_scale {
-public:
-    explicit inflation_scale(std::vector<candidate_bar> const& bars) {
-        double least = 1;
-        double most = 1;
+/// A scale from left to right, over which rows lie: linear from 0 where all bars are of one size,
+/// else logarithmic.
+struct inflation_axis {
+    double left, right;
+    bool logarithmic = false;
+    double low = 0, high = 1;
+
+    inflation_axis(std::vector<candidate_bar> const& bars, double from, double to)
+        : left{from}, right{to} {
+        double least = 1, most = 1;
         auto const see = [&](double v) {
-            if (std::isfinite(v) && v > 0) {
-                least = std::min(least, v);
-                most = std::max(most, v);
-            }
+            if (!std::isfinite(v) || !(v > 0)) return;
+            least = std::min(least, v);
+            most = std::max(most, v);
         };
         for (candidate_bar const& b : bars) {
             if (says_something(b.proved)) {
@@ -186,50 +192,29 @@ public:
             }
             see(b.fitted);
         }
-        logarithmic_ = most > 8;
-        low_ = logarithmic_ ? std::clamp(least * 0.8, 0.1, 0.7) : 0;
-        high_ = std::min(most * (logarithmic_ ? 1.3 : 1.06), 1e5);
+        logarithmic = most > 8;
+        low = logarithmic ? std::clamp(least * 0.8, 0.1, 0.7) : 0;
+        high = std::min(most * (logarithmic ? 1.3 : 1.06), 1e5);
     }
-    [[nodiscard]] bool logarithmic() const { return logarithmic_; }
-    [[nodiscard]] double high() const { return high_; }
-
-    [[nodiscard]] double share(double v) const {
-        if (!(v > low_)) return 0;
-        double const s = logarithmic_ ? std::log(v / low_) / std::log(high_ / low_) : v / high_;
-        return std::clamp(s, 0.0, 1.0);
+    [[nodiscard]] double px(double v) const {
+        double const s = !(v > low)    ? 0
+                         : logarithmic ? std::log(v / low) / std::log(high / low)
+                                       : v / high;
+        return left + (right - left) * std::clamp(s, 0.0, 1.0);
     }
     [[nodiscard]] std::vector<tick> ticks() const {
-        if (!logarithmic_) return nice_ticks({0, high_}, 8).ticks;
+        if (!logarithmic) return nice_ticks({0, high}, 8).ticks;
         std::vector<tick> out;
-        bool const few = high_ / low_ > 2000;
+        bool const few = high / low > 2000;
         for (int power = -1; power <= 5; ++power) {
             for (int const digit : {1, 2, 5}) {
                 double const v = digit * std::pow(10.0, power);
-                if (v > low_ && v <= high_ && (digit == 1 || !few)) {
-                    out.push_back({v, given_text(v)});
-                }
+                if (v > low && v <= high && (digit == 1 || !few)) out.push_back({v, given_text(v)});
             }
         }
         return out;
     }
-
-private:
-    bool logarithmic_ = false;
-    double low_ = 0, high_ = 1;
 };
-
-inline std::string_view state_colour(cause_verdict s) {
-    return s == cause_verdict::explains   ? palette::inside
-           : s == cause_verdict::excluded ? palette::outlier
-                                          : palette::frame;
-}
-
-// Of a sign in the same meaning: dark enough for a letter.
-inline std::string_view state_ink(cause_verdict s) {
-    return s == cause_verdict::explains   ? palette::inside
-           : s == cause_verdict::excluded ? palette::outlier_ink
-                                          : palette::muted_ink;
-}
 
 } // namespace detail
 
@@ -249,7 +234,7 @@ namespace detail {
 
 /// What is known of a candidate, in words beside its bar.
 inline std::string candidate_note(candidate_bar const& b) {
-    std::string text{state_words(b.state)};
+    std::string text{look_of(b.state).words};
     if (says_something(b.proved)) text += ", " + inflation_text(b.proved);
     if (b.state == cause_verdict::undecided && is_fitted(b.fitted)) {
         text += ", " + estimate_text(b.fitted) + (says_something(b.proved) ? "" : " (estimate)");
@@ -257,17 +242,9 @@ inline std::string candidate_note(candidate_bar const& b) {
     return text;
 }
 
-/// A scale from left to right, over which rows lie.
-struct inflation_axis {
-    double left, right;
-    inflation_scale scale;
-
-    [[nodiscard]] double px(double v) const { return left + (right - left) * scale.share(v); }
-};
-
 /// Up to the proved lower bound, and on to the upper one.
 inline void draw_proved(svg& out, inflation_axis const& axis, candidate_bar const& b, double y) {
-    auto const colour = state_colour(b.state);
+    auto const colour = look_of(b.state).colour;
     std::string const tip = b.label + ": " + candidate_note(b);
     double const low = axis.px(b.proved.lo);
     out.rect(axis.left, y + 7, low - axis.left, 13, {.fill = colour}, 0, tip);
@@ -288,14 +265,15 @@ inline void draw_fitted(svg& out, inflation_axis const& axis, candidate_bar cons
                  {.stroke = palette::frame, .width = 1.2, .dash = "2 3"});
     }
     draw_estimate(out, x, y + 13.5, b.label + ": " + estimate_text(b.fitted) + ", best fit");
-    if (b.fitted > axis.scale.high()) {
+    if (b.fitted > axis.high) {
         out.text(axis.right - 8, y + 18, "\xE2\x96\xB8", {.size = 11, .align = anchor::end});
     }
 }
 
 inline void draw_candidate(svg& out, inflation_axis const& axis, candidate_bar const& b, double y) {
-    out.text(8, y + 18, state_sign(b.state),
-             {.size = 13, .align = anchor::middle, .fill = state_ink(b.state), .bold = true});
+    auto const look = look_of(b.state);
+    out.text(8, y + 18, look.sign,
+             {.size = 13, .align = anchor::middle, .fill = look.ink, .bold = true});
     out.text(axis.left - 10, y + 18, shorten(b.label, 44),
              {.size = 12.5, .align = anchor::end, .bold = b.answer});
     if (says_something(b.proved)) draw_proved(out, axis, b, y);
@@ -321,13 +299,13 @@ inline void draw_candidate(svg& out, inflation_axis const& axis, candidate_bar c
     }
     double const left = std::min(label_width + 34, width * 0.42);
     double const right = std::max(width - note_width - 18, left + 80);
-    detail::inflation_axis const axis{left, right, detail::inflation_scale(bars)};
+    detail::inflation_axis const axis(bars, left, right);
     auto const row = [&](std::size_t i) { return top + pitch * static_cast<double>(i); };
     for (std::size_t i = 0; i < bars.size(); ++i) {
         if (bars[i].answer) out.rect(0, row(i) + 1, width, pitch - 2, {.fill = "#eef6fb"}, 3);
     }
     auto const px = [&](double v) { return axis.px(v); };
-    detail::draw_grid(out, axis.scale.ticks(), px, top, bottom);
+    detail::draw_grid(out, axis.ticks(), px, top, bottom);
     for (std::size_t i = 0; i < bars.size(); ++i)
         detail::draw_candidate(out, axis, bars[i], row(i));
     out.line(left, top, left, bottom, {.stroke = palette::frame});
@@ -337,7 +315,7 @@ inline void draw_candidate(svg& out, inflation_axis const& axis, candidate_bar c
              {.size = 11, .align = px(1) > (left + right) / 2 ? anchor::end : anchor::start});
     out.text((left + right) / 2, bottom + 33,
              std::string{"factor by which all bounds must still grow"} +
-                 (axis.scale.logarithmic() ? " (logarithmic)" : ""),
+                 (axis.logarithmic ? " (logarithmic)" : ""),
              {.size = 11.5, .align = anchor::middle});
     return out;
 }

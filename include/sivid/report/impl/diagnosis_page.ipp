@@ -6,7 +6,6 @@
 
 #include <sivid/number/text/joined.hpp>
 #include <sivid/report/detail/diagnosis_tables.hpp>
-#include <sivid/report/detail/tried_words.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
@@ -152,7 +151,7 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     out.add(constants_table(v));
     if (!v.journal.empty()) {
         out.subsection("What was tried to bound them");
-        out.add(tried_table(tried_words(v.journal)));
+        out.add(tried_table(v.journal));
     }
     detail::add_remainder(out, v);
     detail::add_comparison(out, v);

@@ -9,8 +9,8 @@
 #include <sivid/number/text/joined.hpp>
 #include <sivid/paving/excluded_between.hpp>
 #include <sivid/paving/verdict.hpp>
-#include <sivid/report/detail/tried_words.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
+#include <sivid/report/identification_page.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace sivid::report {
 
 namespace detail {
 
-inline std::string nearest_text(double x) {
-    return rounded_text(x, rounding::nearest, {.significant = 2});
+inline std::string brief(double x, rounding way = rounding::nearest) {
+    return rounded_text(x, way, {.significant = 2});
 }
 
 /// "L * k, Sg / k" or "a + s, b - 2 s": what may move together.
@@ -58,7 +58,7 @@ inline std::string direction_text(sensitive_direction const& d,
     for (auto const c : order) {
         double const x = d.components[c];
         if (!text.empty()) text += ", ";
-        text += names[c].name + (x < 0 ? " -" : " +") + nearest_text(std::abs(x));
+        text += names[c].name + (x < 0 ? " -" : " +") + brief(std::abs(x));
     }
     return text;
 }
@@ -105,17 +105,13 @@ SIVID_DECL std::vector<std::string> identifiability_words(identifiability const&
     for (std::size_t k = told - std::min<std::size_t>(told, 3); k < told; ++k) {
         auto const& d = found.directions[k];
         lines.push_back("along " + detail::direction_text(d, found.unknowns) +
-                        " of the prior's width an output moves by " +
-                        detail::nearest_text(d.noticed) + " error bounds (to first order)");
+                        " of the prior's width an output moves by " + detail::brief(d.noticed) +
+                        " error bounds (to first order)");
     }
     return lines;
 }
 
 namespace detail {
-
-inline std::string brief(double x, rounding way = rounding::nearest) {
-    return rounded_text(x, way, {.significant = 2});
-}
 
 inline std::string name_of(run_reach::cause const& c) {
     return c.start ? "the start of " + c.name : formula_text(c.name);
@@ -342,7 +338,7 @@ private:
             found_.seconds, found_.boxes, found_.integrations,
             std::string{to_string(found_.reason)} +
                 (found_.by_clock ? " by the clock: a faster machine may say more" : "")};
-        view_.tried = tried_words(found_.journal);
+        view_.tried = found_.journal;
         view_.statistics.why = reach_words(problem_, found_);
         view_.version = "sivid " + std::string{version};
         view_.date = options_.date;
