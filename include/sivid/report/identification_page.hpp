@@ -214,8 +214,6 @@ inline std::vector<std::string> plain_statements(identification_view const& v) {
     return result;
 }
 
-namespace detail {} // namespace detail
-
 namespace detail {
 
 inline void add_parameters(page& out, identification_view const& v) {

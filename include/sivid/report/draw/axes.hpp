@@ -210,6 +210,15 @@ namespace draw_detail {
 /// A symbol that is a rectangle.
 inline void draw_box_symbol(svg& out, symbol what, double x, double y) {
     switch (what) {
+    case symbol::tube:
+        out.rect(x + 1, y + 2, 24, 10, {.fill = palette::tube, .opacity = 0.45});
+        out.path(path_data{}
+                     .move(x + 1, y + 2)
+                     .line(x + 25, y + 2)
+                     .move(x + 1, y + 12)
+                     .line(x + 25, y + 12),
+                 {.stroke = palette::tube_edge});
+        break;
     case symbol::measured_box:
         out.rect(x + 6, y + 2, 14, 10, {.stroke = palette::measurement});
         break;
@@ -239,20 +248,6 @@ inline void draw_box_symbol(svg& out, symbol what, double x, double y) {
     }
     }
 }
-inline void draw_tube_symbol(svg& out, double x, double y) {
-    out.rect(x + 1, y + 2, 24, 10, {.fill = palette::tube, .opacity = 0.45});
-    out.path(
-        path_data{}.move(x + 1, y + 2).line(x + 25, y + 2).move(x + 1, y + 12).line(x + 25, y + 12),
-        {.stroke = palette::tube_edge});
-}
-inline void draw_line_symbol(svg& out, double x, double y, paint const& how) {
-    out.line(x + 1, y + 7, x + 25, y + 7, how);
-}
-inline void draw_heading_symbol(svg& out, double x, double y) {
-    path_data arrow;
-    add_arrowhead(arrow, x, y, 0);
-    out.path(arrow, {.fill = palette::paper, .stroke = palette::truth, .width = 1.2});
-}
 
 } // namespace draw_detail
 
@@ -260,6 +255,8 @@ inline void draw_heading_symbol(svg& out, double x, double y) {
 inline void draw_symbol(svg& out, symbol what, double x, double y) {
     double const mx = x + 13;
     double const my = y + 7;
+    auto const line = [&](paint const& how) { out.line(x + 1, my, x + 25, my, how); };
+    path_data arrow;
     switch (what) {
     case symbol::measured:
         return draw_measured(out, mx, y + 12, y + 2, palette::measurement);
@@ -267,19 +264,18 @@ inline void draw_symbol(svg& out, symbol what, double x, double y) {
         return draw_forced_outlier(out, mx, my);
     case symbol::suspect:
         return draw_suspect(out, mx, my);
-    case symbol::tube:
-        return draw_detail::draw_tube_symbol(out, x, y);
     case symbol::reference:
-        return draw_detail::draw_line_symbol(
-            out, x, y, {.stroke = palette::truth, .width = 1.6, .dash = "5 3"});
+        return line({.stroke = palette::truth, .width = 1.6, .dash = "5 3"});
     case symbol::witness:
         return draw_witness(out, mx, my);
     case symbol::heading:
-        return draw_detail::draw_heading_symbol(out, mx - 1, my);
+        add_arrowhead(arrow, mx - 1, my, 0);
+        out.path(arrow, {.fill = palette::paper, .stroke = palette::truth, .width = 1.2});
+        return;
     case symbol::line_before:
-        return draw_detail::draw_line_symbol(out, x, y, line_before_paint);
+        return line(line_before_paint);
     case symbol::line_after:
-        return draw_detail::draw_line_symbol(out, x, y, line_after_paint);
+        return line(line_after_paint);
     case symbol::estimate:
         return draw_estimate(out, mx, my);
     default:

@@ -70,6 +70,30 @@ struct interval_row {
     std::optional<double> witness{};
 };
 
+/// How a verdict is shown.
+struct verdict_look {
+    std::string_view sign, words;
+    std::string_view colour;
+    std::string_view ink; ///< of the sign: dark enough for a letter
+};
+
+[[nodiscard]] inline verdict_look look_of(cause_verdict s) {
+    if (s == cause_verdict::explains)
+        return {"\xE2\x9C\x93", "explains (proved)", palette::inside, palette::inside};
+    if (s == cause_verdict::excluded)
+        return {"\xE2\x9C\x95", "excluded (proved)", palette::outlier, palette::outlier_ink};
+    return {"?", "open", palette::frame, palette::muted_ink};
+}
+
+/// The largest finite value of a map; 0 when there is none.
+[[nodiscard]] inline double largest_value(heat_map const& m) {
+    double largest = 0;
+    for (auto const& row : m.values) {
+        for (double const v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
+    }
+    return largest;
+}
+
 namespace detail {
 
 /// Where rows end.
@@ -89,86 +113,6 @@ void draw_grid(svg& out, std::vector<tick> const& ticks, Place const& px, double
     }
     out.path(grid, {.stroke = palette::grid});
 }
-
-} // namespace detail
-
-/// Horizontal bars of bounded quantities, with their numbers, and a threshold line.
-[[nodiscard]] inline svg draw_bar_chart(std::vector<bar> const& bars,
-                                        bar_chart_options const& o = {}) {
-    double const width = 900, top = 44, pitch = 28;
-    double const bottom = detail::rows_end(top, pitch, bars.size());
-    svg out{width, bottom + 42, o.title};
-    double label_width = 30, note_width = 20;
-    range shown{0, 0};
-    for (bar const& b : bars) {
-        label_width = std::max(label_width, approximate_text_width(shorten(b.label, 36), 12));
-        note_width = std::max(note_width, approximate_text_width(outward_text(b.value), 11) + 22);
-        shown = hull(hull(shown, b.value.lo), b.value.hi);
-    }
-    if (o.threshold) shown = hull(shown, *o.threshold);
-    shown = axis_range({shown.lo, shown.hi + 0.04 * (shown.hi - shown.lo)});
-    double const left = std::min(label_width + 12, width * 0.4);
-    double const right = std::max(width - note_width, left + 60);
-    auto const px = [&](double v) {
-        double const s = (v / 2 - shown.lo / 2) / (shown.hi / 2 - shown.lo / 2);
-        return left + (right - left) * (std::isnan(s) ? 0.0 : std::clamp(s, 0.0, 1.0));
-    };
-    out.text(0, 16, o.title, {.size = 13, .bold = true});
-    tick_set const ticks =
-        nice_ticks(shown, std::clamp(static_cast<int>((right - left) / 70), 2, 10));
-    detail::draw_grid(out, ticks.ticks, px, top, bottom);
-    for (std::size_t i = 0; i < bars.size(); ++i) {
-        bar const& b = bars[i];
-        double const y = top + pitch * static_cast<double>(i);
-        out.text(left - 8, y + 18, shorten(b.label, 36), {.size = 12, .align = anchor::end});
-        if (is_empty(b.value)) {
-            out.text(left + 6, y + 18, "no bound", {.size = 11, .fill = palette::muted_ink});
-            continue;
-        }
-        double const zero = px(0), low = px(b.value.lo), high = px(b.value.hi);
-        out.rect(std::min(zero, low), y + 6, std::abs(low - zero), 16, {.fill = palette::blue});
-        out.rect(
-            low, y + 6, high - low, 16,
-            {.fill = out.hatch("#ffffff", palette::blue), .stroke = palette::blue, .width = 1});
-    }
-    out.line(left, top, left, bottom, {.stroke = palette::frame});
-    if (o.threshold) {
-        double const x = px(*o.threshold);
-        out.line(x, top - 4, x, bottom, {.stroke = palette::black, .width = 1.3, .dash = "4 3"});
-        out.text(x, top - 7, o.threshold_label,
-                 {.size = 11, .align = x > (left + right) / 2 ? anchor::end : anchor::start});
-    }
-    // Last and on a light ground, so that the threshold does not strike them through.
-    for (std::size_t i = 0; i < bars.size(); ++i) {
-        if (is_empty(bars[i].value)) continue;
-        double const x = std::max(px(bars[i].value.hi), px(0)) + 7;
-        double const y = top + pitch * static_cast<double>(i);
-        auto const label = outward_text(bars[i].value);
-        out.rect(x - 3, y + 7, approximate_text_width(label, 11) + 4, 14,
-                 {.fill = palette::paper, .opacity = 0.85});
-        out.text(x, y + 18, label, {.size = 11});
-    }
-    out.text((left + right) / 2, bottom + 33, axis_text(o.quantity, o.unit, ticks.exponent),
-             {.size = 11.5, .align = anchor::middle});
-    return out;
-}
-
-/// How a verdict is shown.
-struct verdict_look {
-    std::string_view sign, words;
-    std::string_view colour;
-    std::string_view ink; ///< of the sign: dark enough for a letter
-};
-
-[[nodiscard]] inline verdict_look look_of(cause_verdict s) {
-    if (s == cause_verdict::explains)
-        return {"\xE2\x9C\x93", "explains (proved)", palette::inside, palette::inside};
-    if (s == cause_verdict::excluded)
-        return {"\xE2\x9C\x95", "excluded (proved)", palette::outlier, palette::outlier_ink};
-    return {"?", "open", palette::frame, palette::muted_ink};
-}
-
-namespace detail {
 
 /// A scale from left to right, over which rows lie: linear from 0 where all bars are of one size,
 /// else logarithmic.
@@ -215,22 +159,6 @@ struct inflation_axis {
         return out;
     }
 };
-
-} // namespace detail
-
-[[nodiscard]] inline std::vector<legend_entry>
-candidate_legend(std::vector<candidate_bar> const& bars) {
-    bool proved = false, fitted = false;
-    for (candidate_bar const& b : bars) {
-        proved = proved || says_something(b.proved);
-        fitted = fitted || is_fitted(b.fitted);
-    }
-    return legend_of({{proved, {symbol::bar_to_lower, "up to the proved lower bound"}},
-                      {proved, {symbol::bar_to_upper, "between the proved bounds"}},
-                      {fitted, {symbol::estimate, "best fit found (estimate)"}}});
-}
-
-namespace detail {
 
 /// What is known of a candidate, in words beside its bar.
 inline std::string candidate_note(candidate_bar const& b) {
@@ -281,56 +209,6 @@ inline void draw_candidate(svg& out, inflation_axis const& axis, candidate_bar c
     out.text(axis.right + 12, y + 18, candidate_note(b), {.size = 11.5});
 }
 
-} // namespace detail
-
-/// For each candidate the inflation that is left: proved bounds as a bar, solid to the lower and
-/// hatched to the upper one, the best fit as an open circle; the threshold at 1; sign and words for
-/// what is proved.
-[[nodiscard]] inline svg draw_candidate_chart(std::vector<candidate_bar> const& bars) {
-    double const width = 1000, top = 24, pitch = 27;
-    double const bottom = detail::rows_end(top, pitch, bars.size());
-    svg out{width, bottom + 42, "inflation of the candidates"};
-    double label_width = 60, note_width = 90;
-    for (candidate_bar const& b : bars) {
-        double const bold = b.answer ? 1.12 : 1;
-        label_width =
-            std::max(label_width, bold * approximate_text_width(shorten(b.label, 44), 12.5));
-        note_width = std::max(note_width, approximate_text_width(detail::candidate_note(b), 11.5));
-    }
-    double const left = std::min(label_width + 34, width * 0.42);
-    double const right = std::max(width - note_width - 18, left + 80);
-    detail::inflation_axis const axis(bars, left, right);
-    auto const row = [&](std::size_t i) { return top + pitch * static_cast<double>(i); };
-    for (std::size_t i = 0; i < bars.size(); ++i) {
-        if (bars[i].answer) out.rect(0, row(i) + 1, width, pitch - 2, {.fill = "#eef6fb"}, 3);
-    }
-    auto const px = [&](double v) { return axis.px(v); };
-    detail::draw_grid(out, axis.ticks(), px, top, bottom);
-    for (std::size_t i = 0; i < bars.size(); ++i)
-        detail::draw_candidate(out, axis, bars[i], row(i));
-    out.line(left, top, left, bottom, {.stroke = palette::frame});
-    out.line(px(1), top - 5, px(1), bottom,
-             {.stroke = palette::black, .width = 1.3, .dash = "4 3"});
-    out.text(px(1), top - 9, "1: all data explained",
-             {.size = 11, .align = px(1) > (left + right) / 2 ? anchor::end : anchor::start});
-    out.text((left + right) / 2, bottom + 33,
-             std::string{"factor by which all bounds must still grow"} +
-                 (axis.logarithmic ? " (logarithmic)" : ""),
-             {.size = 11.5, .align = anchor::middle});
-    return out;
-}
-
-/// The largest finite value of a map; 0 when there is none.
-[[nodiscard]] inline double largest_value(heat_map const& m) {
-    double largest = 0;
-    for (auto const& row : m.values) {
-        for (double const v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
-    }
-    return largest;
-}
-
-namespace detail {
-
 inline double median_spacing(std::vector<point> const& all) {
     std::vector<double> gaps;
     for (std::size_t k = 1; k < all.size(); ++k) {
@@ -342,53 +220,6 @@ inline double median_spacing(std::vector<point> const& all) {
     std::nth_element(gaps.begin(), middle, gaps.end());
     return *middle;
 }
-
-} // namespace detail
-
-/// How far the channels miss their bounds, over time: each cell holds the largest misfit of the
-/// samples in it; a sample of a slow channel reaches half way to its neighbours.
-[[nodiscard]] inline heat_map misfit_map(std::vector<channel_series> const& channels, bool after,
-                                         std::size_t most_columns = 60) {
-    heat_map out{.quantity = "|residual| / bound"};
-    if (!channels.empty()) out.time_unit = channels.front().time_unit;
-    range span;
-    std::size_t columns = 1;
-    for (channel_series const& c : channels) {
-        auto const& all = after ? c.misfit_after : c.misfit_before;
-        columns = std::max(columns, std::min(all.size(), most_columns));
-        for (point const& p : all) span = hull(span, p.x);
-    }
-    if (is_empty(span)) return out;
-    span = axis_range(span);
-    double const step = (span.hi - span.lo) / static_cast<double>(columns);
-    for (std::size_t k = 0; k <= columns; ++k) {
-        out.times.push_back(span.lo + step * static_cast<double>(k));
-    }
-    for (channel_series const& c : channels) {
-        auto const& all = after ? c.misfit_after : c.misfit_before;
-        std::vector<double> row(columns, std::nan(""));
-        double const reach = detail::median_spacing(all) / 2;
-        auto const cell = [&](double t) {
-            double const place = std::floor((t - span.lo) / step);
-            return static_cast<std::size_t>(
-                std::clamp(place, 0.0, static_cast<double>(columns - 1)));
-        };
-        for (point const& p : all) {
-            if (!std::isfinite(p.x) || std::isnan(p.y)) continue;
-            for (std::size_t k = cell(p.x - reach); k <= cell(p.x + reach); ++k) {
-                double const middle = span.lo + step * (static_cast<double>(k) + 0.5);
-                if (k == cell(p.x) || std::fabs(middle - p.x) <= reach) {
-                    row[k] = std::fmax(row[k], std::fabs(p.y));
-                }
-            }
-        }
-        out.rows.push_back(c.name);
-        out.values.push_back(std::move(row));
-    }
-    return out;
-}
-
-namespace detail {
 
 /// Colours of a heat map. Below the threshold linear; above it logarithmic, since a gap may be a
 /// hundred times its bound.
@@ -492,6 +323,159 @@ inline void draw_colour_bar(svg& out, heat_map const& m, heat_frame const& at,
 }
 
 } // namespace detail
+
+/// Horizontal bars of bounded quantities, with their numbers, and a threshold line.
+[[nodiscard]] inline svg draw_bar_chart(std::vector<bar> const& bars,
+                                        bar_chart_options const& o = {}) {
+    double const width = 900, top = 44, pitch = 28;
+    double const bottom = detail::rows_end(top, pitch, bars.size());
+    svg out{width, bottom + 42, o.title};
+    double label_width = 30, note_width = 20;
+    range shown{0, 0};
+    for (bar const& b : bars) {
+        label_width = std::max(label_width, approximate_text_width(shorten(b.label, 36), 12));
+        note_width = std::max(note_width, approximate_text_width(outward_text(b.value), 11) + 22);
+        shown = hull(hull(shown, b.value.lo), b.value.hi);
+    }
+    if (o.threshold) shown = hull(shown, *o.threshold);
+    shown = axis_range({shown.lo, shown.hi + 0.04 * (shown.hi - shown.lo)});
+    double const left = std::min(label_width + 12, width * 0.4);
+    double const right = std::max(width - note_width, left + 60);
+    auto const px = [&](double v) {
+        double const s = (v / 2 - shown.lo / 2) / (shown.hi / 2 - shown.lo / 2);
+        return left + (right - left) * (std::isnan(s) ? 0.0 : std::clamp(s, 0.0, 1.0));
+    };
+    out.text(0, 16, o.title, {.size = 13, .bold = true});
+    tick_set const ticks =
+        nice_ticks(shown, std::clamp(static_cast<int>((right - left) / 70), 2, 10));
+    detail::draw_grid(out, ticks.ticks, px, top, bottom);
+    for (std::size_t i = 0; i < bars.size(); ++i) {
+        bar const& b = bars[i];
+        double const y = top + pitch * static_cast<double>(i);
+        out.text(left - 8, y + 18, shorten(b.label, 36), {.size = 12, .align = anchor::end});
+        if (is_empty(b.value)) {
+            out.text(left + 6, y + 18, "no bound", {.size = 11, .fill = palette::muted_ink});
+            continue;
+        }
+        double const zero = px(0), low = px(b.value.lo), high = px(b.value.hi);
+        out.rect(std::min(zero, low), y + 6, std::abs(low - zero), 16, {.fill = palette::blue});
+        out.rect(
+            low, y + 6, high - low, 16,
+            {.fill = out.hatch("#ffffff", palette::blue), .stroke = palette::blue, .width = 1});
+    }
+    out.line(left, top, left, bottom, {.stroke = palette::frame});
+    if (o.threshold) {
+        double const x = px(*o.threshold);
+        out.line(x, top - 4, x, bottom, {.stroke = palette::black, .width = 1.3, .dash = "4 3"});
+        out.text(x, top - 7, o.threshold_label,
+                 {.size = 11, .align = x > (left + right) / 2 ? anchor::end : anchor::start});
+    }
+    // Last and on a light ground, so that the threshold does not strike them through.
+    for (std::size_t i = 0; i < bars.size(); ++i) {
+        if (is_empty(bars[i].value)) continue;
+        double const x = std::max(px(bars[i].value.hi), px(0)) + 7;
+        double const y = top + pitch * static_cast<double>(i);
+        auto const label = outward_text(bars[i].value);
+        out.rect(x - 3, y + 7, approximate_text_width(label, 11) + 4, 14,
+                 {.fill = palette::paper, .opacity = 0.85});
+        out.text(x, y + 18, label, {.size = 11});
+    }
+    out.text((left + right) / 2, bottom + 33, axis_text(o.quantity, o.unit, ticks.exponent),
+             {.size = 11.5, .align = anchor::middle});
+    return out;
+}
+
+[[nodiscard]] inline std::vector<legend_entry>
+candidate_legend(std::vector<candidate_bar> const& bars) {
+    bool proved = false, fitted = false;
+    for (candidate_bar const& b : bars) {
+        proved = proved || says_something(b.proved);
+        fitted = fitted || is_fitted(b.fitted);
+    }
+    return legend_of({{proved, {symbol::bar_to_lower, "up to the proved lower bound"}},
+                      {proved, {symbol::bar_to_upper, "between the proved bounds"}},
+                      {fitted, {symbol::estimate, "best fit found (estimate)"}}});
+}
+
+/// For each candidate the inflation that is left: proved bounds as a bar, solid to the lower and
+/// hatched to the upper one, the best fit as an open circle; the threshold at 1; sign and words for
+/// what is proved.
+[[nodiscard]] inline svg draw_candidate_chart(std::vector<candidate_bar> const& bars) {
+    double const width = 1000, top = 24, pitch = 27;
+    double const bottom = detail::rows_end(top, pitch, bars.size());
+    svg out{width, bottom + 42, "inflation of the candidates"};
+    double label_width = 60, note_width = 90;
+    for (candidate_bar const& b : bars) {
+        double const bold = b.answer ? 1.12 : 1;
+        label_width =
+            std::max(label_width, bold * approximate_text_width(shorten(b.label, 44), 12.5));
+        note_width = std::max(note_width, approximate_text_width(detail::candidate_note(b), 11.5));
+    }
+    double const left = std::min(label_width + 34, width * 0.42);
+    double const right = std::max(width - note_width - 18, left + 80);
+    detail::inflation_axis const axis(bars, left, right);
+    auto const row = [&](std::size_t i) { return top + pitch * static_cast<double>(i); };
+    for (std::size_t i = 0; i < bars.size(); ++i) {
+        if (bars[i].answer) out.rect(0, row(i) + 1, width, pitch - 2, {.fill = "#eef6fb"}, 3);
+    }
+    auto const px = [&](double v) { return axis.px(v); };
+    detail::draw_grid(out, axis.ticks(), px, top, bottom);
+    for (std::size_t i = 0; i < bars.size(); ++i)
+        detail::draw_candidate(out, axis, bars[i], row(i));
+    out.line(left, top, left, bottom, {.stroke = palette::frame});
+    out.line(px(1), top - 5, px(1), bottom,
+             {.stroke = palette::black, .width = 1.3, .dash = "4 3"});
+    out.text(px(1), top - 9, "1: all data explained",
+             {.size = 11, .align = px(1) > (left + right) / 2 ? anchor::end : anchor::start});
+    out.text((left + right) / 2, bottom + 33,
+             std::string{"factor by which all bounds must still grow"} +
+                 (axis.logarithmic ? " (logarithmic)" : ""),
+             {.size = 11.5, .align = anchor::middle});
+    return out;
+}
+
+/// How far the channels miss their bounds, over time: each cell holds the largest misfit of the
+/// samples in it; a sample of a slow channel reaches half way to its neighbours.
+[[nodiscard]] inline heat_map misfit_map(std::vector<channel_series> const& channels, bool after,
+                                         std::size_t most_columns = 60) {
+    heat_map out{.quantity = "|residual| / bound"};
+    if (!channels.empty()) out.time_unit = channels.front().time_unit;
+    range span;
+    std::size_t columns = 1;
+    for (channel_series const& c : channels) {
+        auto const& all = after ? c.misfit_after : c.misfit_before;
+        columns = std::max(columns, std::min(all.size(), most_columns));
+        for (point const& p : all) span = hull(span, p.x);
+    }
+    if (is_empty(span)) return out;
+    span = axis_range(span);
+    double const step = (span.hi - span.lo) / static_cast<double>(columns);
+    for (std::size_t k = 0; k <= columns; ++k) {
+        out.times.push_back(span.lo + step * static_cast<double>(k));
+    }
+    for (channel_series const& c : channels) {
+        auto const& all = after ? c.misfit_after : c.misfit_before;
+        std::vector<double> row(columns, std::nan(""));
+        double const reach = detail::median_spacing(all) / 2;
+        auto const cell = [&](double t) {
+            double const place = std::floor((t - span.lo) / step);
+            return static_cast<std::size_t>(
+                std::clamp(place, 0.0, static_cast<double>(columns - 1)));
+        };
+        for (point const& p : all) {
+            if (!std::isfinite(p.x) || std::isnan(p.y)) continue;
+            for (std::size_t k = cell(p.x - reach); k <= cell(p.x + reach); ++k) {
+                double const middle = span.lo + step * (static_cast<double>(k) + 0.5);
+                if (k == cell(p.x) || std::fabs(middle - p.x) <= reach) {
+                    row[k] = std::fmax(row[k], std::fabs(p.y));
+                }
+            }
+        }
+        out.rows.push_back(c.name);
+        out.values.push_back(std::move(row));
+    }
+    return out;
+}
 
 /// Channels against time in colour: blue up to the threshold, orange with a cross above it, hatched
 /// where nothing is known; with a colour bar.

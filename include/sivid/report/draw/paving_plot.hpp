@@ -161,6 +161,46 @@ inline std::array<std::size_t, 2> touched(std::vector<double> const& breaks, ran
     return {first, std::clamp(until, first + 1, cells)};
 }
 
+inline void add_box(path_data& d, axes const& a, plane_box const& b, double least) {
+    double const x = a.px(b.x.lo), y = a.py(b.y.hi);
+    double const w = a.px(b.x.hi) - x, h = a.py(b.y.lo) - y;
+    double const more_w = std::max(0.0, least - w), more_h = std::max(0.0, least - h);
+    d.rect(x - more_w / 2, y - more_h / 2, w + more_w, h + more_h);
+}
+
+/// The axes of a plot of a plane.
+inline axes plane_axes(plane_series const& s, double width, double height) {
+    range xs;
+    range ys;
+    auto const include = [&](plane_box const& b) {
+        if (is_finite(b.x) && is_finite(b.y)) {
+            xs = hull(xs, b.x);
+            ys = hull(ys, b.y);
+        }
+    };
+    for (plane_box const& b : s.measured) include(b);
+    for (point const& p : s.reference) include({{p.x, p.x}, {p.y, p.y}});
+    // A tube that bursts must not hide the measurements.
+    range const x_core = xs, y_core = ys;
+    for (plane_box const& b : s.tube) include(b);
+    if (!is_empty(x_core)) {
+        double const room = std::max({approximate_width(x_core), approximate_width(y_core), 1e-9});
+        xs = intersect(xs, {x_core.lo - room, x_core.hi + room});
+        ys = intersect(ys, {y_core.lo - room, y_core.hi + room});
+    }
+    return {{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
+            {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
+            {.width = width, .height = height, .equal_aspect = true}};
+}
+
+inline void draw_start(svg& out, axes const& a, point const& start) {
+    out.circle(a.px(start.x), a.py(start.y), 4, {.fill = palette::ink}, "start");
+    double const wide = approximate_text_width("start", 11) + 6;
+    out.rect(a.px(start.x) - wide / 2, a.py(start.y) - 20, wide, 14,
+             {.fill = palette::paper, .opacity = 0.8}, 3);
+    out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
+}
+
 } // namespace detail
 
 /// Projects boxes on a window of the plane, at most `most` cells a side. What no box covers is
@@ -466,50 +506,6 @@ projections(named_paving const& p, std::vector<std::size_t> const& first, std::s
     }
     return boxes;
 }
-
-namespace detail {
-
-inline void add_box(path_data& d, axes const& a, plane_box const& b, double least) {
-    double const x = a.px(b.x.lo), y = a.py(b.y.hi);
-    double const w = a.px(b.x.hi) - x, h = a.py(b.y.lo) - y;
-    double const more_w = std::max(0.0, least - w), more_h = std::max(0.0, least - h);
-    d.rect(x - more_w / 2, y - more_h / 2, w + more_w, h + more_h);
-}
-
-/// The axes of a plot of a plane.
-inline axes plane_axes(plane_series const& s, double width, double height) {
-    range xs;
-    range ys;
-    auto const include = [&](plane_box const& b) {
-        if (is_finite(b.x) && is_finite(b.y)) {
-            xs = hull(xs, b.x);
-            ys = hull(ys, b.y);
-        }
-    };
-    for (plane_box const& b : s.measured) include(b);
-    for (point const& p : s.reference) include({{p.x, p.x}, {p.y, p.y}});
-    // A tube that bursts must not hide the measurements.
-    range const x_core = xs, y_core = ys;
-    for (plane_box const& b : s.tube) include(b);
-    if (!is_empty(x_core)) {
-        double const room = std::max({approximate_width(x_core), approximate_width(y_core), 1e-9});
-        xs = intersect(xs, {x_core.lo - room, x_core.hi + room});
-        ys = intersect(ys, {y_core.lo - room, y_core.hi + room});
-    }
-    return {{s.x_name, s.unit, with_margin(axis_range(xs), 0.04)},
-            {s.y_name, s.unit, with_margin(axis_range(ys), 0.08)},
-            {.width = width, .height = height, .equal_aspect = true}};
-}
-
-inline void draw_start(svg& out, axes const& a, point const& start) {
-    out.circle(a.px(start.x), a.py(start.y), 4, {.fill = palette::ink}, "start");
-    double const wide = approximate_text_width("start", 11) + 6;
-    out.rect(a.px(start.x) - wide / 2, a.py(start.y) - 20, wide, 14,
-             {.fill = palette::paper, .opacity = 0.8}, 3);
-    out.text(a.px(start.x), a.py(start.y) - 9, "start", {.size = 11, .align = anchor::middle});
-}
-
-} // namespace detail
 
 /// A motion seen from above: the proven boxes step by step, the measured positions and a
 /// reference line that is not validated; equal scales on both axes. Beyond some thousand boxes

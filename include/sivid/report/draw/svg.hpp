@@ -22,13 +22,8 @@ namespace sivid::report {
 namespace palette {
 
 inline constexpr std::string_view black = "#1a1d21";
-inline constexpr std::string_view orange = "#e69f00";
-inline constexpr std::string_view sky_blue = "#56b4e9";
-inline constexpr std::string_view bluish_green = "#009e73";
-inline constexpr std::string_view yellow = "#f0e442";
 inline constexpr std::string_view blue = "#0072b2";
 inline constexpr std::string_view vermillion = "#d55e00";
-inline constexpr std::string_view reddish_purple = "#cc79a7";
 
 inline constexpr std::string_view inside = "#00805d";      // bluish green, darker: solid
 inline constexpr std::string_view undecided = "#f2b93b";   // orange, lighter: hatched
@@ -158,12 +153,11 @@ public:
                          attribute("height", std::max(h, 0.0)) + round,
                      p, tip);
     }
-    svg& line(double x1, double y1, double x2, double y2, paint const& p,
-              std::string_view tip = {}) {
+    svg& line(double x1, double y1, double x2, double y2, paint const& p) {
         return shape("line",
                      attribute("x1", x1) + attribute("y1", y1) + attribute("x2", x2) +
                          attribute("y2", y2),
-                     p, tip);
+                     p, {});
     }
     svg& circle(double x, double y, double r, paint const& p, std::string_view tip = {}) {
         return shape("circle", attribute("cx", x) + attribute("cy", y) + attribute("r", r), p, tip);

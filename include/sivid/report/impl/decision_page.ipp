@@ -171,6 +171,187 @@ inline void add_basis(page& out, stored_prediction const& about, decision_page_o
     out.footer(o.footer);
 }
 
+inline std::string excluded_percent(subpaving const& paving) {
+    using traits = interval_traits<interval>;
+    auto const rest = traits::sub(traits::point(1.0), paving.outer_volume());
+    return at_least_percent(std::clamp(rest.lower(), 0.0, 1.0));
+}
+
+/// The set of gains: pictures of pairs, or the ranges of a single one.
+inline void add_gains(page& out, gain_set const& found) {
+    out.section("The gains");
+    auto const& paving = found.paving.paving;
+    named_paving named{&paving, {}, {}, found.suggested.value_or(std::vector<double>{})};
+    auto const hull = paving.outer_hull();
+    for (std::size_t k = 0; k < found.names.size(); ++k) {
+        named.sides.push_back({found.names[k], "", paving.prior()[k]});
+        named.hull.push_back(hull[k]);
+    }
+    auto const pairs = projections(named, {}, 6);
+    if (!pairs.empty()) {
+        out.add(paving_figure(pairs, "Gains that meet the requirement.",
+                              std::string{projection_rule} +
+                                  " Proved means for every parameter that the identification "
+                                  "leaves, every start, every instant.",
+                              {"inside: proved for every parameter",
+                               "outside: violated by a parameter that the data allow", "suggested",
+                               "whole range"}));
+        return;
+    }
+    table t{.columns = columns("#" + found.names[0] + "|~")};
+    std::vector<paved_box const*> row;
+    for (auto const& b : paving.boxes()) row.push_back(&b);
+    std::sort(row.begin(), row.end(), [](paved_box const* a, paved_box const* b) {
+        return a->set[0].lower() < b->set[0].lower();
+    });
+    for (std::size_t k = 0; k < row.size();) {
+        auto const first = k;
+        while (k < row.size() && row[k]->verdict == row[first]->verdict) ++k;
+        range const r{row[first]->set[0].lower(), row[k - 1]->set[0].upper()};
+        auto const says = row[first]->verdict == box_verdict::inside    ? "proved"
+                          : row[first]->verdict == box_verdict::outside ? "violated"
+                                                                        : "";
+        // What is known holds within, what is not may reach further.
+        auto const within = "[" + exact_text(r.lo) + ", " + exact_text(r.hi) + "]";
+        t.rows.push_back(
+            {*says != 0 ? inward_text(r, {.significant = 5}).value_or(within) : outward_text(r),
+             *says != 0 ? says : "not decided"});
+    }
+    out.add(t);
+}
+
+inline std::string goal_texts(design_answer const& a) {
+    if (a.goals.empty()) return a.first + " or " + a.second;
+    auto const text = sivid::joined(a.goals, ", ", [](auto const& g) { return g.text; });
+    return a.jointly ? "the volume in " + text : text;
+}
+
+/// The inputs of a manoeuvre over time.
+inline void add_inputs(page& out, stored_prediction const& about, tried_manoeuvre const& m,
+                       std::vector<varied_input> const& varied) {
+    figure f{.title = "What to do.",
+             .caption = "Straight lines between the samples of scenario.json; the promise is for "
+                        "exactly these inputs."};
+    for (auto const& u : varied) {
+        auto const* const s = std::get_if<sampled_signal>(&m.inputs[u.index]);
+        if (s == nullptr) continue;
+        channel_series line{
+            .name = u.name, .unit = u.unit, .time_unit = about.problem.model.about.time_unit};
+        for (std::size_t k = 0; k < s->times().size(); ++k)
+            line.after.push_back({s->times()[k], s->values()[k]});
+        if (!line.after.empty() && line.after.back().x < about.problem.end)
+            line.after.push_back({about.problem.end, s->values().back()});
+        f.panels.push_back(draw_time_plot(line, {.title = u.name}));
+    }
+    table t{.columns = columns("setting|#value|unit")};
+    for (std::size_t k = 0; k < m.about.size(); ++k)
+        t.rows.push_back({m.about[k].name, given_text(m.settings[k]), unit_text(m.about[k].unit)});
+    t.caption = "The shape \"" + m.name + "\". Rounded; design.json has them in full.";
+    out.section("The experiment: " + m.name);
+    out.add(f);
+    out.add(t);
+}
+
+inline void add_promises(page& out, design_answer const& a, promise const& p) {
+    if (a.goals.empty()) return; // the sentence says all
+    table t{.columns = columns("*quantity|#width now|#at most afterwards|#share")};
+    for (std::size_t g = 0; g < a.goals.size(); ++g) {
+        auto const& w = p.goals[g];
+        t.rows.push_back({a.goals[g].text, rounded_text(w.before, rounding::down),
+                          "≤ " + rounded_text(w.after, rounding::up),
+                          "≤ " + at_most_percent(w.factor())});
+    }
+    t.caption = "Whatever the truth among the parameters that the identification leaves, whatever "
+                "the start and the errors within their bounds: all parameters that explain the new "
+                "data together with the old ones lie so close (proved).";
+    out.section("The promise").add(t);
+}
+
+inline void add_plan(page& out, stored_prediction const& about, design_answer const& a) {
+    table t{.columns = columns("*channel|#error at most|unit")};
+    auto const& channels = about.problem.model.about.channels;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        if (a.plan.errors[c] > 0)
+            t.rows.push_back(
+                {channels[c].name, given_text(a.plan.errors[c]), unit_text(channels[c].unit)});
+    }
+    t.caption = "Measured at " + count_text(a.plan.times.size()) + " instants, the last one at " +
+                given_text(a.plan.times.back()) + unit_suffix(about.problem.model.about.time_unit) +
+                ".";
+    out.section("What is measured").add(t);
+}
+
+inline void add_tried(page& out, design_answer const& a) {
+    table t{.columns =
+                columns("shape|#estimate|#" +
+                        std::string{a.goals.empty() ? "proof" : "proved share"} + "|limits")};
+    for (auto const& m : a.found.tried)
+        t.rows.push_back({m.name, rounded_text(m.estimate, rounding::nearest, {.significant = 2}),
+                          !m.promised              ? "not asked"
+                          : !a.goals.empty()       ? "≤ " + at_most_percent(m.factor())
+                          : m.promised->told_apart ? "told apart"
+                                                   : "not proved",
+                          a.limits.empty() ? "none"
+                          : m.limits       ? std::string{to_string(*m.limits)}
+                                           : "not asked"});
+    t.caption = std::string{"Each shape with its best settings. The estimate, of "} +
+                (a.goals.empty() ? "the errors against those that would still tell, "
+                                 : "the share that is left, ") +
+                "treats outputs as linear about the middle: it chooses, and proves nothing. Shapes "
+                "that cannot be run, or pass the limits in the middle, are left out.";
+    out.section("What was tried").add(t);
+}
+
+/// What the equations hide, and what can be told.
+inline std::string hidden_sentence(design_answer const& a) {
+    std::string text = "The equations contain " + a.hidden +
+                       " only together with other parameters, so that no input, no start and "
+                       "no measurement tells it apart from them (proved)";
+    if (!a.instead.empty()) text += ". What can be told: " + sivid::joined(a.instead);
+    return text + ".";
+}
+
+/// What the data would lose without some of the measurements.
+inline void add_worth(page& out, identification_problem const& about,
+                      measurement_ranking const& found) {
+    out.section("Which measurements matter");
+    if (found.groups.empty()) {
+        out.prose(found.explained == verdict::inconsistent
+                      ? "No parameter explains all of the data: nothing can grow."
+                      : "Nothing was compared.");
+        return;
+    }
+    table t{.columns = columns("without|#measurements|what explains the rest grows")};
+    std::vector<bar> bars;
+    std::vector<std::string> idle;
+    for (auto const& g : found.groups) {
+        auto const name = group_text(about, g.what);
+        t.rows.push_back({name, count_text(g.measurements), growth_text(g.growth)});
+        if (g.changes_nothing()) {
+            idle.push_back(name);
+            continue;
+        }
+        using traits = interval_traits<interval>;
+        auto const more = traits::mul(traits::sub(g.growth, traits::point(1)), traits::point(100));
+        bars.push_back({.label = name, .value = {std::max(0.0, more.lower()), more.upper()}});
+    }
+    if (!idle.empty())
+        out.prose("Nothing changes without any one of these, which follow from the others: " +
+                  sivid::joined(idle, "; ") + ".");
+    auto const sides = sivid::joined(found.coordinates);
+    if (!bars.empty())
+        out.add(
+            figure{.panels = {draw_bar_chart(bars, {.title = "Growth without them",
+                                                    .quantity = "what is added to the volume",
+                                                    .unit = "%"})},
+                   .title = "What is added to the set of parameters without a group of "
+                            "measurements.",
+                   .caption = "Volumes of " + sides +
+                              ". Full up to what is proved to be added, hatched up to what may be.",
+                   .layout = panel_layout::wide});
+    out.add(t);
+}
+
 } // namespace detail
 
 SIVID_DECL std::string answer_sentence(stored_prediction const& about, verification const& found) {
@@ -304,59 +485,6 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
     return out;
 }
 
-namespace detail {
-
-inline std::string excluded_percent(subpaving const& paving) {
-    using traits = interval_traits<interval>;
-    auto const rest = traits::sub(traits::point(1.0), paving.outer_volume());
-    return at_least_percent(std::clamp(rest.lower(), 0.0, 1.0));
-}
-
-/// The set of gains: pictures of pairs, or the ranges of a single one.
-inline void add_gains(page& out, gain_set const& found) {
-    out.section("The gains");
-    auto const& paving = found.paving.paving;
-    named_paving named{&paving, {}, {}, found.suggested.value_or(std::vector<double>{})};
-    auto const hull = paving.outer_hull();
-    for (std::size_t k = 0; k < found.names.size(); ++k) {
-        named.sides.push_back({found.names[k], "", paving.prior()[k]});
-        named.hull.push_back(hull[k]);
-    }
-    auto const pairs = projections(named, {}, 6);
-    if (!pairs.empty()) {
-        out.add(paving_figure(pairs, "Gains that meet the requirement.",
-                              std::string{projection_rule} +
-                                  " Proved means for every parameter that the identification "
-                                  "leaves, every start, every instant.",
-                              {"inside: proved for every parameter",
-                               "outside: violated by a parameter that the data allow", "suggested",
-                               "whole range"}));
-        return;
-    }
-    table t{.columns = columns("#" + found.names[0] + "|~")};
-    std::vector<paved_box const*> row;
-    for (auto const& b : paving.boxes()) row.push_back(&b);
-    std::sort(row.begin(), row.end(), [](paved_box const* a, paved_box const* b) {
-        return a->set[0].lower() < b->set[0].lower();
-    });
-    for (std::size_t k = 0; k < row.size();) {
-        auto const first = k;
-        while (k < row.size() && row[k]->verdict == row[first]->verdict) ++k;
-        range const r{row[first]->set[0].lower(), row[k - 1]->set[0].upper()};
-        auto const says = row[first]->verdict == box_verdict::inside    ? "proved"
-                          : row[first]->verdict == box_verdict::outside ? "violated"
-                                                                        : "";
-        // What is known holds within, what is not may reach further.
-        auto const within = "[" + exact_text(r.lo) + ", " + exact_text(r.hi) + "]";
-        t.rows.push_back(
-            {*says != 0 ? inward_text(r, {.significant = 5}).value_or(within) : outward_text(r),
-             *says != 0 ? says : "not decided"});
-    }
-    out.add(t);
-}
-
-} // namespace detail
-
 SIVID_DECL std::string gain_sentence(gain_set const& found) {
     auto const& paving = found.paving.paving;
     std::string const why{to_string(found.paving.reason)};
@@ -438,101 +566,6 @@ SIVID_DECL page control_page(stored_prediction const& about, requirement const& 
     detail::add_basis(out, about, o, decision_assumptions(about));
     return out;
 }
-
-namespace detail {
-
-inline std::string goal_texts(design_answer const& a) {
-    if (a.goals.empty()) return a.first + " or " + a.second;
-    auto const text = sivid::joined(a.goals, ", ", [](auto const& g) { return g.text; });
-    return a.jointly ? "the volume in " + text : text;
-}
-
-/// The inputs of a manoeuvre over time.
-inline void add_inputs(page& out, stored_prediction const& about, tried_manoeuvre const& m,
-                       std::vector<varied_input> const& varied) {
-    figure f{.title = "What to do.",
-             .caption = "Straight lines between the samples of scenario.json; the promise is for "
-                        "exactly these inputs."};
-    for (auto const& u : varied) {
-        auto const* const s = std::get_if<sampled_signal>(&m.inputs[u.index]);
-        if (s == nullptr) continue;
-        channel_series line{
-            .name = u.name, .unit = u.unit, .time_unit = about.problem.model.about.time_unit};
-        for (std::size_t k = 0; k < s->times().size(); ++k)
-            line.after.push_back({s->times()[k], s->values()[k]});
-        if (!line.after.empty() && line.after.back().x < about.problem.end)
-            line.after.push_back({about.problem.end, s->values().back()});
-        f.panels.push_back(draw_time_plot(line, {.title = u.name}));
-    }
-    table t{.columns = columns("setting|#value|unit")};
-    for (std::size_t k = 0; k < m.about.size(); ++k)
-        t.rows.push_back({m.about[k].name, given_text(m.settings[k]), unit_text(m.about[k].unit)});
-    t.caption = "The shape \"" + m.name + "\". Rounded; design.json has them in full.";
-    out.section("The experiment: " + m.name);
-    out.add(f);
-    out.add(t);
-}
-
-inline void add_promises(page& out, design_answer const& a, promise const& p) {
-    if (a.goals.empty()) return; // the sentence says all
-    table t{.columns = columns("*quantity|#width now|#at most afterwards|#share")};
-    for (std::size_t g = 0; g < a.goals.size(); ++g) {
-        auto const& w = p.goals[g];
-        t.rows.push_back({a.goals[g].text, rounded_text(w.before, rounding::down),
-                          "≤ " + rounded_text(w.after, rounding::up),
-                          "≤ " + at_most_percent(w.factor())});
-    }
-    t.caption = "Whatever the truth among the parameters that the identification leaves, whatever "
-                "the start and the errors within their bounds: all parameters that explain the new "
-                "data together with the old ones lie so close (proved).";
-    out.section("The promise").add(t);
-}
-
-inline void add_plan(page& out, stored_prediction const& about, design_answer const& a) {
-    table t{.columns = columns("*channel|#error at most|unit")};
-    auto const& channels = about.problem.model.about.channels;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (a.plan.errors[c] > 0)
-            t.rows.push_back(
-                {channels[c].name, given_text(a.plan.errors[c]), unit_text(channels[c].unit)});
-    }
-    t.caption = "Measured at " + count_text(a.plan.times.size()) + " instants, the last one at " +
-                given_text(a.plan.times.back()) + unit_suffix(about.problem.model.about.time_unit) +
-                ".";
-    out.section("What is measured").add(t);
-}
-
-inline void add_tried(page& out, design_answer const& a) {
-    table t{.columns =
-                columns("shape|#estimate|#" +
-                        std::string{a.goals.empty() ? "proof" : "proved share"} + "|limits")};
-    for (auto const& m : a.found.tried)
-        t.rows.push_back({m.name, rounded_text(m.estimate, rounding::nearest, {.significant = 2}),
-                          !m.promised              ? "not asked"
-                          : !a.goals.empty()       ? "≤ " + at_most_percent(m.factor())
-                          : m.promised->told_apart ? "told apart"
-                                                   : "not proved",
-                          a.limits.empty() ? "none"
-                          : m.limits       ? std::string{to_string(*m.limits)}
-                                           : "not asked"});
-    t.caption = std::string{"Each shape with its best settings. The estimate, of "} +
-                (a.goals.empty() ? "the errors against those that would still tell, "
-                                 : "the share that is left, ") +
-                "treats outputs as linear about the middle: it chooses, and proves nothing. Shapes "
-                "that cannot be run, or pass the limits in the middle, are left out.";
-    out.section("What was tried").add(t);
-}
-
-/// What the equations hide, and what can be told.
-inline std::string hidden_sentence(design_answer const& a) {
-    std::string text = "The equations contain " + a.hidden +
-                       " only together with other parameters, so that no input, no start and "
-                       "no measurement tells it apart from them (proved)";
-    if (!a.instead.empty()) text += ". What can be told: " + sivid::joined(a.instead);
-    return text + ".";
-}
-
-} // namespace detail
 
 SIVID_DECL std::string design_headline(design_answer const& a) {
     auto const goals = detail::goal_texts(a);
@@ -691,51 +724,6 @@ SIVID_DECL std::string growth_text(interval const& growth) {
     auto const high = rounded_text(growth.upper(), rounding::up);
     return growth.lower() > 1 ? low + " to " + high + " times" : "at most " + high + " times";
 }
-
-namespace detail {
-
-/// What the data would lose without some of the measurements.
-inline void add_worth(page& out, identification_problem const& about,
-                      measurement_ranking const& found) {
-    out.section("Which measurements matter");
-    if (found.groups.empty()) {
-        out.prose(found.explained == verdict::inconsistent
-                      ? "No parameter explains all of the data: nothing can grow."
-                      : "Nothing was compared.");
-        return;
-    }
-    table t{.columns = columns("without|#measurements|what explains the rest grows")};
-    std::vector<bar> bars;
-    std::vector<std::string> idle;
-    for (auto const& g : found.groups) {
-        auto const name = group_text(about, g.what);
-        t.rows.push_back({name, count_text(g.measurements), growth_text(g.growth)});
-        if (g.changes_nothing()) {
-            idle.push_back(name);
-            continue;
-        }
-        using traits = interval_traits<interval>;
-        auto const more = traits::mul(traits::sub(g.growth, traits::point(1)), traits::point(100));
-        bars.push_back({.label = name, .value = {std::max(0.0, more.lower()), more.upper()}});
-    }
-    if (!idle.empty())
-        out.prose("Nothing changes without any one of these, which follow from the others: " +
-                  sivid::joined(idle, "; ") + ".");
-    auto const sides = sivid::joined(found.coordinates);
-    if (!bars.empty())
-        out.add(
-            figure{.panels = {draw_bar_chart(bars, {.title = "Growth without them",
-                                                    .quantity = "what is added to the volume",
-                                                    .unit = "%"})},
-                   .title = "What is added to the set of parameters without a group of "
-                            "measurements.",
-                   .caption = "Volumes of " + sides +
-                              ". Full up to what is proved to be added, hatched up to what may be.",
-                   .layout = panel_layout::wide});
-    out.add(t);
-}
-
-} // namespace detail
 
 SIVID_DECL page ranking_page(identification_problem const& about, ranking const& found,
                              decision_page_options const& o,

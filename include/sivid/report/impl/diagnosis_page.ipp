@@ -114,6 +114,22 @@ inline void add_basis(page& out, diagnosis_view const& v) {
               (v.about.machine.empty() ? "" : "Machine: " + v.about.machine + "."));
 }
 
+/// Marks the q largest misfits beyond their bounds; none without an outlier budget.
+inline std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
+                                  std::size_t q) {
+    std::vector<std::size_t> beyond;
+    for (std::size_t i = 0; i < std::min(n, residuals.size()); ++i) {
+        if (std::fabs(residuals[i]) > 1) beyond.push_back(i);
+    }
+    std::stable_sort(beyond.begin(), beyond.end(), [&](std::size_t a, std::size_t b) {
+        return std::fabs(residuals[a]) > std::fabs(residuals[b]);
+    });
+    beyond.resize(std::min(beyond.size(), q));
+    std::vector<bool> out(n, false);
+    for (std::size_t const i : beyond) out[i] = true;
+    return out;
+}
+
 } // namespace detail
 
 SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
@@ -160,26 +176,6 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     out.footer({"sivid " + std::string{version}, v.about.date});
     return out;
 }
-
-namespace detail {
-
-/// Marks the q largest misfits beyond their bounds; none without an outlier budget.
-inline std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
-                                  std::size_t q) {
-    std::vector<std::size_t> beyond;
-    for (std::size_t i = 0; i < std::min(n, residuals.size()); ++i) {
-        if (std::fabs(residuals[i]) > 1) beyond.push_back(i);
-    }
-    std::stable_sort(beyond.begin(), beyond.end(), [&](std::size_t a, std::size_t b) {
-        return std::fabs(residuals[a]) > std::fabs(residuals[b]);
-    });
-    beyond.resize(std::min(beyond.size(), q));
-    std::vector<bool> out(n, false);
-    for (std::size_t const i : beyond) out[i] = true;
-    return out;
-}
-
-} // namespace detail
 
 SIVID_DECL std::vector<compared_scenario> compared_scenarios(identification_problem const& problem,
                                                              approximate_fit const& base,

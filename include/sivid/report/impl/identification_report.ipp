@@ -63,56 +63,6 @@ inline std::string direction_text(sensitive_direction const& d,
     return text;
 }
 
-} // namespace detail
-
-SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found) {
-    auto const count = [](std::size_t n, std::string const& what) {
-        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-    };
-    std::vector<std::string> lines;
-    auto const n = found.unknowns.size();
-    std::string ranks =
-        count(found.outputs, "measured output") + " and " + count(n, "unknown") + ": rank ";
-    if (found.least_rank == found.most_rank) {
-        ranks += std::to_string(found.least_rank) + ", proved";
-    } else {
-        ranks += "at least " + std::to_string(found.least_rank) + " and at most " +
-                 std::to_string(found.most_rank) + ", proved; " +
-                 std::to_string(found.approximate_rank) + " in floating point";
-    }
-    if (found.missing > 0) ranks += "; " + count(found.missing, "output") + " not reached";
-    lines.push_back(std::move(ranks));
-    for (auto const& m : found.free) {
-        auto const moving =
-            std::count_if(m.weights.begin(), m.weights.end(), [](int w) { return w != 0; });
-        lines.push_back("free: " + detail::motion_text(m, found.unknowns) +
-                        (moving == 1 ? ": it does not act on the outputs" : "") +
-                        (m.proved ? " (by the equations)" : " (numerically, not proved)"));
-    }
-    for (auto const& m : found.nearly_free) {
-        lines.push_back("hardly noticed: " + detail::motion_text(m, found.unknowns) +
-                        " across the prior moves no output by more than " +
-                        rounded_text(m.noticed, rounding::up, {.significant = 2}) +
-                        " of its error bound (to first order)");
-    }
-    if (!found.fixed.empty())
-        lines.push_back("these act through " + joined(found.fixed, ", ", &fixed_formula::formula) +
-                        " alone");
-    if (!found.nearly_fixed.empty())
-        lines.push_back("these act nearly through " +
-                        joined(found.nearly_fixed, ", ", &fixed_formula::formula) + " alone");
-    std::size_t const told = std::min(found.approximate_rank, found.directions.size());
-    for (std::size_t k = told - std::min<std::size_t>(told, 3); k < told; ++k) {
-        auto const& d = found.directions[k];
-        lines.push_back("along " + detail::direction_text(d, found.unknowns) +
-                        " of the prior's width an output moves by " + detail::brief(d.noticed) +
-                        " error bounds (to first order)");
-    }
-    return lines;
-}
-
-namespace detail {
-
 inline std::string name_of(run_reach::cause const& c) {
     return c.start ? "the start of " + c.name : formula_text(c.name);
 }
@@ -206,42 +156,6 @@ inline std::string proved_inside_text(identification const& found) {
            "by them. Smaller error bounds, further measurements, or motions that depend more on "
            "the parameters would";
 }
-
-} // namespace detail
-
-SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach,
-                                                bool ended_by_itself) {
-    constexpr std::size_t most = 6;
-    std::vector<std::string> result;
-    for (auto const& r : reach) {
-        if (&r - reach.data() == most && reach.size() > most) {
-            result.push_back(count_text(reach.size() - most) +
-                             " further scenarios: see \xE2\x80\x9Creach\xE2\x80\x9D in the "
-                             "result file");
-            break;
-        }
-        auto const words = detail::why_of(r, ended_by_itself);
-        if (!words.empty()) result.push_back(r.scenario + ": " + words);
-    }
-    return result;
-}
-
-SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
-                                                identification const& found) {
-    std::vector<std::string> result;
-    if (!found.excludes_little()) return result;
-    if (auto words = detail::proved_inside_text(found); !words.empty())
-        result.push_back(std::move(words));
-    if (found.reach.empty() && found.reason == stop_reason::time_budget &&
-        !problem.model.has_memory())
-        result.push_back("No time was left to see why: a larger budget may tell");
-    for (auto const& d : found.divisors) result.push_back(detail::divisor_text(d));
-    for (auto& words : reach_words(found.reach, is_complete(found.reason)))
-        result.push_back(std::move(words));
-    return result;
-}
-
-namespace detail {
 
 /// A share of the prior, widened a little where its bounds agree to many digits, so that it reads
 /// well; still an enclosure.
@@ -604,6 +518,84 @@ private:
 };
 
 } // namespace detail
+
+SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found) {
+    auto const count = [](std::size_t n, std::string const& what) {
+        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    };
+    std::vector<std::string> lines;
+    auto const n = found.unknowns.size();
+    std::string ranks =
+        count(found.outputs, "measured output") + " and " + count(n, "unknown") + ": rank ";
+    if (found.least_rank == found.most_rank) {
+        ranks += std::to_string(found.least_rank) + ", proved";
+    } else {
+        ranks += "at least " + std::to_string(found.least_rank) + " and at most " +
+                 std::to_string(found.most_rank) + ", proved; " +
+                 std::to_string(found.approximate_rank) + " in floating point";
+    }
+    if (found.missing > 0) ranks += "; " + count(found.missing, "output") + " not reached";
+    lines.push_back(std::move(ranks));
+    for (auto const& m : found.free) {
+        auto const moving =
+            std::count_if(m.weights.begin(), m.weights.end(), [](int w) { return w != 0; });
+        lines.push_back("free: " + detail::motion_text(m, found.unknowns) +
+                        (moving == 1 ? ": it does not act on the outputs" : "") +
+                        (m.proved ? " (by the equations)" : " (numerically, not proved)"));
+    }
+    for (auto const& m : found.nearly_free) {
+        lines.push_back("hardly noticed: " + detail::motion_text(m, found.unknowns) +
+                        " across the prior moves no output by more than " +
+                        rounded_text(m.noticed, rounding::up, {.significant = 2}) +
+                        " of its error bound (to first order)");
+    }
+    if (!found.fixed.empty())
+        lines.push_back("these act through " + joined(found.fixed, ", ", &fixed_formula::formula) +
+                        " alone");
+    if (!found.nearly_fixed.empty())
+        lines.push_back("these act nearly through " +
+                        joined(found.nearly_fixed, ", ", &fixed_formula::formula) + " alone");
+    std::size_t const told = std::min(found.approximate_rank, found.directions.size());
+    for (std::size_t k = told - std::min<std::size_t>(told, 3); k < told; ++k) {
+        auto const& d = found.directions[k];
+        lines.push_back("along " + detail::direction_text(d, found.unknowns) +
+                        " of the prior's width an output moves by " + detail::brief(d.noticed) +
+                        " error bounds (to first order)");
+    }
+    return lines;
+}
+
+SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach,
+                                                bool ended_by_itself) {
+    constexpr std::size_t most = 6;
+    std::vector<std::string> result;
+    for (auto const& r : reach) {
+        if (&r - reach.data() == most && reach.size() > most) {
+            result.push_back(count_text(reach.size() - most) +
+                             " further scenarios: see \xE2\x80\x9Creach\xE2\x80\x9D in the "
+                             "result file");
+            break;
+        }
+        auto const words = detail::why_of(r, ended_by_itself);
+        if (!words.empty()) result.push_back(r.scenario + ": " + words);
+    }
+    return result;
+}
+
+SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
+                                                identification const& found) {
+    std::vector<std::string> result;
+    if (!found.excludes_little()) return result;
+    if (auto words = detail::proved_inside_text(found); !words.empty())
+        result.push_back(std::move(words));
+    if (found.reach.empty() && found.reason == stop_reason::time_budget &&
+        !problem.model.has_memory())
+        result.push_back("No time was left to see why: a larger budget may tell");
+    for (auto const& d : found.divisors) result.push_back(detail::divisor_text(d));
+    for (auto& words : reach_words(found.reach, is_complete(found.reason)))
+        result.push_back(std::move(words));
+    return result;
+}
 
 SIVID_DECL identification_view view_of(identification_problem const& problem,
                                        identification const& found, explaining_motion const* motion,
