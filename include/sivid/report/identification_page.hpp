@@ -2,6 +2,7 @@
 #ifndef SIVID_REPORT_IDENTIFICATION_PAGE_HPP
 #define SIVID_REPORT_IDENTIFICATION_PAGE_HPP
 
+#include <sivid/number/text/joined.hpp>
 #include <sivid/paving/strategy/contractor.hpp>
 #include <sivid/report/draw/charts.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
@@ -22,12 +23,9 @@ namespace sivid::report {
 /// "Sv = 0.22 m^2, L = 0.3 m"
 /// The values are exact: a witness can be checked again from the text.
 inline std::string values_text(std::vector<named_estimate> const& all) {
-    std::string out;
-    for (named_estimate const& v : all) {
-        out += (out.empty() ? std::string{} : std::string{", "}) + v.name + " = " +
-               given_text(v.value) + unit_suffix(v.unit);
-    }
-    return out;
+    return joined(all, ", ", [](named_estimate const& v) {
+        return v.name + " = " + given_text(v.value) + unit_suffix(v.unit);
+    });
 }
 
 /// What is left of the prior's range, between the ends of the hull, too, as a share of its width;
@@ -175,6 +173,14 @@ inline std::vector<std::string> range_statements(identification_view const& v) {
     return out;
 }
 
+/// Calls f with the scenario, the channel and the sample of each measurement that is marked.
+void for_marked(identification_view const& v, auto const& f) {
+    for (scenario_view const& s : v.scenarios)
+        for (channel_series const& c : s.channels)
+            for (measured_sample const& m : c.measured)
+                if (m.state != sample_state::regular) f(s, c, m);
+}
+
 /// What was proved, sentence by sentence.
 inline std::vector<std::string> plain_statements(identification_view const& v) {
     auto out = existence_statements(v);
@@ -182,12 +188,13 @@ inline std::vector<std::string> plain_statements(identification_view const& v) {
         auto const ranges = range_statements(v);
         out.insert(out.end(), ranges.begin(), ranges.end());
     }
-    auto const forced = std::count_if(v.outliers.begin(), v.outliers.end(),
-                                      [](outlier_view const& o) { return o.proved; });
+    std::size_t forced = 0;
+    for_marked(v, [&](auto const&, auto const&, measured_sample const& m) {
+        forced += m.state == sample_state::forced_outlier ? 1 : 0;
+    });
     if (forced > 0) {
         out.push_back(std::string{forced == 1 ? "One measurement is"
-                                              : count_text(static_cast<std::uint64_t>(forced)) +
-                                                    " measurements are"} +
+                                              : count_text(forced) + " measurements are"} +
                       " proved to be outliers: no parameter vector that explains the data meets " +
                       (forced == 1 ? "it." : "them."));
     }
@@ -399,27 +406,26 @@ inline void add_scenario(page& out, identification_view const& v, scenario_view 
 inline void add_outliers(page& out, identification_view const& v) {
     std::size_t budget = 0;
     for (scenario_view const& s : v.scenarios) budget += s.outlier_budget;
-    if (v.outliers.empty() && budget == 0) return;
+    table found{.columns = columns("*scenario|*channel|#time [" + unit_text(v.time_unit) +
+                                   "]|~what is known")};
+    constexpr std::size_t most = 100;
+    std::size_t marked = 0;
+    for_marked(v, [&](scenario_view const& s, channel_series const& c, measured_sample const& m) {
+        if (++marked > most) return;
+        found.rows.push_back({s.name, c.name, given_text(m.time),
+                              m.state == sample_state::forced_outlier
+                                  ? "proved: violated by every parameter that explains the data"
+                                  : "suspected: violated by the witness; not proved"});
+    });
+    if (marked == 0 && budget == 0) return;
+    if (marked > most)
+        found.caption = "The first " + count_text(most) + " of " + count_text(marked) + ".";
     out.section("Outliers");
     table allowed{.columns = columns("*scenario|#measurements|#outliers allowed")};
     for (scenario_view const& s : v.scenarios) {
         allowed.rows.push_back({s.name, count_text(s.measurements), count_text(s.outlier_budget)});
     }
     out.add(allowed);
-    table found{.columns = columns("*scenario|*channel|#time [" + unit_text(v.time_unit) +
-                                   "]|~what is known")};
-    constexpr std::size_t most = 100;
-    for (outlier_view const& o : v.outliers) {
-        if (found.rows.size() < most) {
-            found.rows.push_back({o.scenario, o.channel, given_text(o.time),
-                                  o.proved
-                                      ? "proved: violated by every parameter that explains the data"
-                                      : "suspected: violated by the witness; not proved"});
-        }
-    }
-    found.caption = v.outliers.size() > most ? "The first " + count_text(most) + " of " +
-                                                   count_text(v.outliers.size()) + "."
-                                             : "";
     out.add(found);
 }
 
@@ -493,7 +499,7 @@ inline void add_identifiability(page& out, identification_view const& v) {
     detail::add_outliers(out, v);
     detail::add_computation(out, v);
     if (v.witness) detail::add_witness(out, *v.witness);
-    out.footer({v.version, v.date, v.machine, v.command});
+    out.footer(v.footer);
     return out;
 }
 

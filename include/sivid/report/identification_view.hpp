@@ -39,15 +39,6 @@ struct combination_view {
     std::string note{}; ///< e.g. what the data cannot tell apart
 };
 
-/// A marked measurement.
-struct outlier_view {
-    std::string scenario{};
-    std::string channel{};
-    double time = 0;
-    bool proved = false; ///< violated by every parameter that explains the data; else by
-                         ///< the witness only
-};
-
 struct scenario_view {
     std::string name{};
     std::size_t measurements = 0;
@@ -96,7 +87,6 @@ struct identification_view {
     std::string identifiability_at{};
     std::vector<std::string> assumptions{};
     std::vector<std::string> warnings{};
-    std::vector<outlier_view> outliers{};
     statistics_view statistics{};
     contraction_journal tried{}; ///< before the search
     std::vector<scenario_view> scenarios{};
@@ -107,10 +97,7 @@ struct identification_view {
     std::vector<paving_projection> product_pavings{};
     std::vector<comparison_row> comparison{};
     std::string comparison_note{};
-    std::string version{};
-    std::string date{};
-    std::string machine{};
-    std::string command{};
+    std::vector<std::string> footer{}; ///< version, date, machine, command
 };
 
 } // namespace sivid::report

@@ -112,17 +112,13 @@ inline table summary_table(diagnosis_view const& v) {
     bool const answered = v.answer == answer_kind::effects && !v.effects.empty();
     if (!v.confined.empty() && !answered) add("Data", confined_clause(v.confined.front()));
     std::size_t const tried = effects_tried(v);
-    std::size_t excluded = 0;
-    for (cause const& c : v.causes) {
-        excluded += !c.effects.empty() && c.verdict == cause_verdict::excluded ? 1 : 0;
-    }
     std::string const all = tried_text(v.tried);
     std::size_t const planned = v.tried.planned();
     bool const beyond = planned > 0 && tried > planned;
     std::string const count =
         tried == 0
             ? ""
-            : "; " + count_text(excluded) + " of the " + count_text(tried) + " candidates tried" +
+            : "; " + count_text(effects_excluded(v)) + " of the " + count_text(tried) + " candidates tried" +
                   (beyond ? ", those beyond the plan among them," : "") + " are excluded (proved)";
     if (answered) {
         add("Effect", answer_clause(v) + count + (v.interrupted && !all.empty() ? "; " + all : ""));

@@ -27,7 +27,7 @@ inline constexpr std::size_t fields_of =
              constant_at_end, unexplained_remainder, promised_width, channel_effects,
              dependence_structure>
         ? 3
-    : one_of<T, measured_sample, paving_projection, outlier_view, run_reach::cause,
+    : one_of<T, measured_sample, paving_projection, run_reach::cause,
              named_combination, next_experiment, simulated_line, violating_motion,
              experiment_design, manoeuvre_setting, exact_measurements, combination,
              measurement_worth, measurement_group, model_description::state,
@@ -49,7 +49,7 @@ inline constexpr std::size_t fields_of =
     : one_of<T, cause>                                                  ? 13
     : one_of<T, channel_series>                                         ? 14
     : one_of<T, run_reach>                                              ? 15
-    : one_of<T, identification_view>                                    ? 31
+    : one_of<T, identification_view>                                    ? 27
     : one_of<T, diagnosis>                                              ? 32
                                                                         : 0;
 
@@ -79,11 +79,9 @@ void with_fields(auto& x, auto const& f) {
     else if constexpr (N == 15) {
         auto& [a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o] = x; f(a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o);
     }
-    else if constexpr (N == 31) {
-        auto& [a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x_, y, z, aa, ab, ac,
-          ad, ae] = x;
-        f(a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x_, y, z, aa, ab, ac, ad,
-          ae);
+    else if constexpr (N == 27) {
+        auto& [a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x_, y, z, aa] = x;
+        f(a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x_, y, z, aa);
     }
     else if constexpr (N == 32) {
         auto& [a, b, c, d, e, f_, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x_, y, z, aa, ab, ac,

@@ -182,7 +182,7 @@ public:
         add_witness();
         for (std::size_t e = 0; e < problem_.experiments.size(); ++e)
             view_.scenarios.push_back(scenario(e));
-        add_marked();
+        add_warnings();
         add_meanings();
         add_pavings();
         add_product_pavings();
@@ -254,10 +254,8 @@ private:
                 (found_.by_clock ? " by the clock: a faster machine may say more" : "")};
         view_.tried = found_.journal;
         view_.statistics.why = reach_words(problem_, found_);
-        view_.version = "sivid " + std::string{version};
-        view_.date = options_.date;
-        view_.machine = options_.machine;
-        view_.command = options_.command;
+        view_.footer = {"sivid " + std::string{version}, options_.date, options_.machine,
+                        options_.command};
     }
 
     void add_parameters() {
@@ -331,17 +329,7 @@ private:
         view_.witness = std::move(w);
     }
 
-    void add_marked() {
-        for (scenario_view const& s : view_.scenarios) {
-            for (channel_series const& c : s.channels) {
-                for (measured_sample const& m : c.measured) {
-                    if (m.state != sample_state::regular) {
-                        view_.outliers.push_back(
-                            {s.name, c.name, m.time, m.state == sample_state::forced_outlier});
-                    }
-                }
-            }
-        }
+    void add_warnings() {
         for (std::size_t e = 0; motion_ != nullptr && e < problem_.experiments.size(); ++e) {
             if (auto const& why = motion_->tubes[e]->failure()) {
                 view_.warnings.push_back(
