@@ -115,11 +115,12 @@ inline table summary_table(diagnosis_view const& v) {
     std::string const all = tried_text(v.tried);
     std::size_t const planned = v.tried.planned();
     bool const beyond = planned > 0 && tried > planned;
-    std::string const count =
-        tried == 0
-            ? ""
-            : "; " + count_text(effects_excluded(v)) + " of the " + count_text(tried) + " candidates tried" +
-                  (beyond ? ", those beyond the plan among them," : "") + " are excluded (proved)";
+    std::string const count = tried == 0
+                                  ? ""
+                                  : "; " + count_text(effects_excluded(v)) + " of the " +
+                                        count_text(tried) + " candidates tried" +
+                                        (beyond ? ", those beyond the plan among them," : "") +
+                                        " are excluded (proved)";
     if (answered) {
         add("Effect", answer_clause(v) + count + (v.interrupted && !all.empty() ? "; " + all : ""));
     } else if (v.answer == answer_kind::unexplained) {

@@ -183,7 +183,8 @@ public:
     /// Opens a group; shapes until `close` belong to it. The tip is shown for all of it.
     svg& group(std::string_view tip = {}) {
         body_ += "<g>" + tip_text(tip);
-        return opened("</g>\n");
+        open_ += "</g>\n";
+        return *this;
     }
     /// Opens a window: what is drawn outside of it until `close` is cut off.
     svg& clip(double x, double y, double w, double h) {
@@ -191,7 +192,8 @@ public:
             coordinate(x) + ' ' + coordinate(y) + ' ' + coordinate(w) + ' ' + coordinate(h);
         body_ += "<svg" + attribute("x", x) + attribute("y", y) + attribute("width", w) +
                  attribute("height", h) + " viewBox=\"" + box + "\" overflow=\"hidden\">";
-        return opened("</svg>\n");
+        open_ += "</svg>\n";
+        return *this;
     }
     svg& close() {
         if (!open_.empty()) {
@@ -265,10 +267,6 @@ private:
         }
         body_ += p.opacity == 1 ? "" : attribute("opacity", p.opacity);
         body_ += tip.empty() ? "/>\n" : ">" + tip_text(tip) + "</" + std::string{name} + ">\n";
-        return *this;
-    }
-    svg& opened(std::string_view closing) {
-        open_ += closing;
         return *this;
     }
     // Equal patterns share one definition.

@@ -185,7 +185,6 @@ public:
         add_warnings();
         add_meanings();
         add_pavings();
-        add_product_pavings();
         return std::move(view_);
     }
 
@@ -288,28 +287,17 @@ private:
 
     /// In products where the search ran there.
     void add_inside_box() {
-        auto const* const products = found_.products ? &*found_.products : nullptr;
-        auto const* const box =
-            (products ? products->paving : found_.paving).largest(box_verdict::inside);
+        auto const p = found_.products ? paving_of_products() : paving_of_parameters();
+        auto const* const box = p.paving->largest(box_verdict::inside);
         if (box == nullptr) return;
         std::vector<std::string> sides;
         for (std::size_t k = 0; k < box->size(); ++k) {
             auto const range = inward_text((*box)[k]);
             if (!range) return;
-            auto const unit = unit_text(products ? unit_of_side(k) : unit_of(k));
-            sides.push_back((products ? name_of_side(k) : names()[k]) + " in " + *range +
-                            (unit.empty() ? "" : " " + unit));
+            auto const unit = unit_text(p.sides[k].unit);
+            sides.push_back(p.sides[k].label + " in " + *range + (unit.empty() ? "" : " " + unit));
         }
         view_.inside_box = enumeration(sides);
-    }
-    /// Of the products that the search ran in.
-    [[nodiscard]] std::string name_of_side(std::size_t k) const {
-        auto const& side = found_.products->map.sides()[k];
-        return side.product ? formula_text(side.product->formula) : names()[side.parameter];
-    }
-    [[nodiscard]] std::string unit_of_side(std::size_t k) const {
-        auto const& side = found_.products->map.sides()[k];
-        return side.product ? side.product->unit : unit_of(side.parameter);
     }
 
     void add_witness() {
@@ -364,30 +352,42 @@ private:
         }
     }
 
-    /// Those of parameters that are known only through a combination come first.
-    void add_pavings() {
+    [[nodiscard]] named_paving paving_of_parameters() const {
         named_paving p{.paving = &found_.paving};
         for (std::size_t j = 0; j < names().size(); ++j) {
             p.sides.push_back({names()[j], unit_of(j), problem_.prior[j]});
-            p.hull.push_back(view_.parameters[j].hull);
+            p.hull.push_back(found_.hull[j]);
         }
         if (found_.witness) p.witness = found_.witness->parameters;
-        view_.pavings = projections(p, found_.entangled, most_pavings);
+        return p;
     }
 
-    void add_product_pavings() {
-        if (!found_.products) return;
+    /// In the coordinates that the search ran in.
+    [[nodiscard]] named_paving paving_of_products() const {
         auto const& map = found_.products->map;
         named_paving p{.paving = &found_.products->paving};
         auto const hull = map.forward(found_.hull);
-        std::vector<std::size_t> products;
         for (std::size_t k = 0; k < map.sides().size(); ++k) {
-            p.sides.push_back({name_of_side(k), unit_of_side(k), map.problem().prior[k]});
+            auto const& side = map.sides()[k];
+            range const prior = map.problem().prior[k];
+            p.sides.push_back(
+                side.product ? axis{formula_text(side.product->formula), side.product->unit, prior}
+                             : axis{names()[side.parameter], unit_of(side.parameter), prior});
             p.hull.push_back(hull[k]);
-            if (map.sides()[k].product) products.push_back(k);
         }
         if (found_.witness) p.witness = mid(map.forward(point_box(found_.witness->parameters)));
-        view_.product_pavings = projections(p, products, most_pavings);
+        return p;
+    }
+
+    /// Those of products, and of parameters that are known only through one, come first.
+    void add_pavings() {
+        view_.pavings = projections(paving_of_parameters(), found_.entangled, most_pavings);
+        if (!found_.products) return;
+        std::vector<std::size_t> products;
+        auto const& sides = found_.products->map.sides();
+        for (std::size_t k = 0; k < sides.size(); ++k)
+            if (sides[k].product) products.push_back(k);
+        view_.product_pavings = projections(paving_of_products(), products, most_pavings);
     }
 
     /// What the page shows of one experiment: its measurements, the tube, the motion in the plane.
