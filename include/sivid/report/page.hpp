@@ -3,6 +3,7 @@
 #define SIVID_REPORT_PAGE_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/io/file_set.hpp>
 #include <sivid/report/draw/axes.hpp>
 #include <sivid/report/draw/svg.hpp>
 #include <sivid/report/number_text.hpp>
@@ -271,6 +272,23 @@ private:
     std::string footer_;
     int figures_ = 0;
     int pictures_ = 0;
+};
+
+/// A page of a command, and what it was made of: numbers, names and points of its lines, from
+/// which the same version of the library makes the same page, byte for byte (`read_page`).
+struct stored_page {
+    std::string name; ///< of its file: "report.html"
+    std::string html;
+    std::string data; ///< JSON (sivid-page-1): a number for each number, to the last bit
+
+    /// "report.page.json"
+    [[nodiscard]] std::string data_name() const {
+        return name.substr(0, name.rfind('.')) + ".page.json";
+    }
+    void add_to(file_set& files) const {
+        files.add(name, html);
+        files.add(data_name(), data);
+    }
 };
 
 } // namespace sivid::report

@@ -41,7 +41,7 @@ inline int run_predict(robot const& r, decision_command const& c) {
     progress.finish();
     file_set files(c.out);
     files.add("tubes.csv", tubes_csv(found));
-    report::stored_prediction_page(*about, found, options).add_to(files);
+    report::prediction_page(*about, found, options).add_to(files);
     files.add("prediction.json", prediction_json(*about, found, task.json_options()));
     files.commit();
     std::cout << task.scenario() << " for all parameters that " << task.dataset() << " leaves: "
@@ -96,7 +96,7 @@ inline int run_verify(robot const& r, decision_command const& c) {
             page.single_is = "the witness that violates it, simulated";
         }
         file_set files(c.out);
-        report::stored_verification_page(*about, asked, found, tubes, page).add_to(files);
+        report::verification_page(*about, asked, found, tubes, page).add_to(files);
         files.add("verification.json",
                   verification_json(*about, asked, found, task.json_options()));
         files.commit();
@@ -174,7 +174,7 @@ inline int run_control(robot const& r, decision_command const& c) {
     if (!c.out.empty()) {
         file_set files(c.out);
         files.add("gains.csv", gains_csv(found));
-        report::stored_control_page(*about, asked, found, proof, tubes, page).add_to(files);
+        report::control_page(*about, asked, found, proof, tubes, page).add_to(files);
         files.add("control.json", control_json(*about, asked, found, proof ? &*proof : nullptr,
                                                task.json_options()));
         files.commit();

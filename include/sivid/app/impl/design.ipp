@@ -183,7 +183,7 @@ private:
     void write(report::decision_page_options const& page,
                std::optional<prediction> const& tubes) const {
         file_set files(command_.out);
-        report::stored_design_page(*one_.about, answer_, tubes, page).add_to(files);
+        report::design_page(*one_.about, answer_, tubes, page).add_to(files);
         auto options = one_.task.json_options();
         if (two_) options.against_digest = two_->task.json_options().source_digest;
         files.add("design.json", design_json(*one_.about, answer_, options));

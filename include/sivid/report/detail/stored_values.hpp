@@ -5,6 +5,7 @@
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/io/text/json_writer.hpp>
 #include <sivid/measurement/signal.hpp>
+#include <sivid/number/text/sha256.hpp>
 #include <sivid/paving/subpaving.hpp>
 #include <sivid/report/decision_page.hpp>
 #include <sivid/report/diagnosis_page.hpp>
@@ -321,6 +322,21 @@ private:
 
     json_value const* json_;
 };
+
+inline constexpr std::string_view before_shown = "\"shows\": ";
+
+/// A page of a kind, and what it shows with a digest: its writer alone knows what fits together.
+template <class... Shown>
+stored_page stored_as(std::string const& kind, std::string const& name, page const& made,
+                      Shown const&... all) {
+    value_writer out;
+    out.list(all...);
+    auto const shown = out.text();
+    return {name + ".html", made.str(),
+            "{\n  \"format\": \"sivid-page-1\",\n  \"page\": \"" + kind + "\",\n  \"sha256\": \"" +
+                sha256(kind + "\n" + shown) + "\",\n  " + std::string{before_shown} + shown +
+                "}\n"};
+}
 
 } // namespace sivid::report::detail
 

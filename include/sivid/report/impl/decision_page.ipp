@@ -6,6 +6,7 @@
 
 #include <sivid/decision/requirement.hpp>
 #include <sivid/number/text/joined.hpp>
+#include <sivid/report/detail/stored_values.hpp>
 #include <sivid/report/draw/charts.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/report/draw/time_plot.hpp>
@@ -409,8 +410,8 @@ SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const
     return lines;
 }
 
-SIVID_DECL page prediction_page(stored_prediction const& about, prediction const& found,
-                                decision_page_options const& o) {
+SIVID_DECL stored_page prediction_page(stored_prediction const& about, prediction const& found,
+                                       decision_page_options const& o) {
     page out{{.kind = "Prediction",
               .title = o.scenario + ", from " + o.dataset,
               .lead = o.about.empty() ? "All motions that the identification leaves." : o.about}};
@@ -436,12 +437,12 @@ SIVID_DECL page prediction_page(stored_prediction const& about, prediction const
     }
     out.add(t);
     detail::add_basis(out, about, o, decision_assumptions(about));
-    return out;
+    return detail::stored_as("prediction", "prediction", out, about, found, o);
 }
 
-SIVID_DECL page verification_page(stored_prediction const& about, requirement const& asked,
-                                  verification const& found, prediction const& tubes,
-                                  decision_page_options const& o) {
+SIVID_DECL stored_page verification_page(stored_prediction const& about, requirement const& asked,
+                                         verification const& found, prediction const& tubes,
+                                         decision_page_options const& o) {
     page out{
         {.kind = "Verification", .title = asked.text, .lead = o.scenario + ", from " + o.dataset}};
     bool const proved = found.answer == requirement_answer::proved;
@@ -482,7 +483,7 @@ SIVID_DECL page verification_page(stored_prediction const& about, requirement co
     out.section("The motion");
     detail::add_motions(out, tubes, o);
     detail::add_basis(out, about, o, decision_assumptions(about));
-    return out;
+    return detail::stored_as("verification", "verification", out, about, asked, found, tubes, o);
 }
 
 SIVID_DECL std::string gain_sentence(gain_set const& found) {
@@ -513,10 +514,10 @@ SIVID_DECL std::string gain_sentence(gain_set const& found) {
     return text + ".";
 }
 
-SIVID_DECL page control_page(stored_prediction const& about, requirement const& asked,
-                             gain_set const& found, std::optional<verification> const& proof,
-                             std::optional<prediction> const& tubes,
-                             decision_page_options const& o) {
+SIVID_DECL stored_page control_page(stored_prediction const& about, requirement const& asked,
+                                    gain_set const& found, std::optional<verification> const& proof,
+                                    std::optional<prediction> const& tubes,
+                                    decision_page_options const& o) {
     page out{{.kind = "Control law",
               .title = o.law,
               .lead = asked.text + ". " + o.scenario + ", from " + o.dataset}};
@@ -564,7 +565,7 @@ SIVID_DECL page control_page(stored_prediction const& about, requirement const& 
         out.add(t);
     }
     detail::add_basis(out, about, o, decision_assumptions(about));
-    return out;
+    return detail::stored_as("control", "control", out, about, asked, found, proof, tubes, o);
 }
 
 SIVID_DECL std::string design_headline(design_answer const& a) {
@@ -617,9 +618,9 @@ SIVID_DECL std::string design_sentence(design_answer const& a) {
     return text + " (proved).";
 }
 
-SIVID_DECL page design_page(stored_prediction const& about, design_answer const& a,
-                            std::optional<prediction> const& tubes,
-                            decision_page_options const& o) {
+SIVID_DECL stored_page design_page(stored_prediction const& about, design_answer const& a,
+                                   std::optional<prediction> const& tubes,
+                                   decision_page_options const& o) {
     page out{{.kind = "Design of an experiment",
               .title = detail::goal_texts(a),
               .lead = o.scenario + ", from " + o.dataset +
@@ -653,7 +654,7 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
         assumptions.push_back("The errors of the new measurements stay within the bounds that are "
                               "stated here.");
     detail::add_basis(out, about, o, assumptions);
-    return out;
+    return detail::stored_as("design", "design", out, about, a, tubes, o);
 }
 
 SIVID_DECL std::string effect_text(parameter_effect const& e) {
@@ -725,9 +726,9 @@ SIVID_DECL std::string growth_text(interval const& growth) {
     return growth.lower() > 1 ? low + " to " + high + " times" : "at most " + high + " times";
 }
 
-SIVID_DECL page ranking_page(identification_problem const& about, ranking const& found,
-                             decision_page_options const& o,
-                             std::optional<measurement_ranking> const& measurements) {
+SIVID_DECL stored_page ranking_page(identification_problem const& about, ranking const& found,
+                                    decision_page_options const& o,
+                                    std::optional<measurement_ranking> const& measurements) {
     page out{{.kind = "Ranking",
               .title = o.scenario.empty() ? o.dataset : o.scenario,
               .lead = "How far can each parameter alone move the measurements?"}};
@@ -780,7 +781,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
          "Effects: at the instants of the measurements, against half the width of their "
          "bounds; what was measured does not enter."});
     out.footer(o.footer);
-    return out;
+    return detail::stored_as("ranking", "ranking", out, about, found, o, measurements);
 }
 
 } // namespace sivid::report

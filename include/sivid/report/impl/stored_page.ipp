@@ -13,27 +13,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <tuple>
 
 namespace sivid::report {
 
 namespace detail {
-
-inline constexpr std::string_view before_shown = "\"shows\": ";
-
-/// A page of a kind, and what it shows with a digest: its writer alone knows what fits together.
-template <class... Shown>
-stored_page stored_as(std::string const& kind, std::string const& name, page const& made,
-                      Shown const&... all) {
-    value_writer out;
-    out.list(all...);
-    auto const shown = out.text();
-    return {name + ".html", made.str(),
-            "{\n  \"format\": \"sivid-page-1\",\n  \"page\": \"" + kind + "\",\n  \"sha256\": \"" +
-                sha256(kind + "\n" + shown) + "\",\n  " + std::string{before_shown} + shown +
-                "}\n"};
-}
 
 template <class T>
 struct unread {
@@ -66,46 +50,6 @@ SIVID_DECL stored_page stored(diagnosis_view const& v) {
     return detail::stored_as("diagnosis", "report", diagnosis_page(v), v);
 }
 
-SIVID_DECL stored_page stored_prediction_page(stored_prediction const& about,
-                                              prediction const& found,
-                                              decision_page_options const& o) {
-    return detail::stored_as("prediction", "prediction", prediction_page(about, found, o), about,
-                             found, o);
-}
-
-SIVID_DECL stored_page stored_verification_page(stored_prediction const& about,
-                                                requirement const& asked, verification const& found,
-                                                prediction const& tubes,
-                                                decision_page_options const& o) {
-    return detail::stored_as("verification", "verification",
-                             verification_page(about, asked, found, tubes, o), about, asked, found,
-                             tubes, o);
-}
-
-SIVID_DECL stored_page stored_control_page(stored_prediction const& about, requirement const& asked,
-                                           gain_set const& found,
-                                           std::optional<verification> const& proof,
-                                           std::optional<prediction> const& tubes,
-                                           decision_page_options const& o) {
-    return detail::stored_as("control", "control",
-                             control_page(about, asked, found, proof, tubes, o), about, asked,
-                             found, proof, tubes, o);
-}
-
-SIVID_DECL stored_page stored_design_page(stored_prediction const& about, design_answer const& a,
-                                          std::optional<prediction> const& tubes,
-                                          decision_page_options const& o) {
-    return detail::stored_as("design", "design", design_page(about, a, tubes, o), about, a, tubes,
-                             o);
-}
-
-SIVID_DECL stored_page stored_ranking_page(identification_problem const& about,
-                                           ranking const& found, decision_page_options const& o,
-                                           std::optional<measurement_ranking> const& measurements) {
-    return detail::stored_as("ranking", "ranking", ranking_page(about, found, o, measurements),
-                             about, found, o, measurements);
-}
-
 SIVID_DECL stored_page read_page(std::filesystem::path const& file) {
     auto const text = read_text(file);
     auto const json = read_json(file);
@@ -122,11 +66,11 @@ SIVID_DECL stored_page read_page(std::filesystem::path const& file) {
     detail::value_reader const in(json.at("shows"));
     if (kind == "identification") return detail::made_by<identification_view>(stored, in);
     if (kind == "diagnosis") return detail::made_by<diagnosis_view>(stored, in);
-    if (kind == "prediction") return detail::made_by(stored_prediction_page, in);
-    if (kind == "verification") return detail::made_by(stored_verification_page, in);
-    if (kind == "control") return detail::made_by(stored_control_page, in);
-    if (kind == "design") return detail::made_by(stored_design_page, in);
-    if (kind == "ranking") return detail::made_by(stored_ranking_page, in);
+    if (kind == "prediction") return detail::made_by(prediction_page, in);
+    if (kind == "verification") return detail::made_by(verification_page, in);
+    if (kind == "control") return detail::made_by(control_page, in);
+    if (kind == "design") return detail::made_by(design_page, in);
+    if (kind == "ranking") return detail::made_by(ranking_page, in);
     json.at("page").fail("unknown page " + in_quotes(kind),
                          "make it by the version that wrote the file");
 }
