@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/catch.hpp"
 
-#include <sivid/report/diagnosis_page.hpp>
+#include <sivid/report/diagnosis_view.hpp>
 
 #include <algorithm>
 #include <string>

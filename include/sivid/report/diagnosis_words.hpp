@@ -4,7 +4,7 @@
 
 #include <sivid/model/named_effects.hpp>
 #include <sivid/number/text/joined.hpp>
-#include <sivid/report/diagnosis_page.hpp>
+#include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/draw/charts.hpp>
 #include <sivid/report/number_text.hpp>
 #include <sivid/report/page.hpp>

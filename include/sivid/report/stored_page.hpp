@@ -4,7 +4,7 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/report/decision_page.hpp>
-#include <sivid/report/diagnosis_page.hpp>
+#include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/identification_view.hpp>
 #include <sivid/report/page.hpp>
 

@@ -2,14 +2,22 @@
 #ifndef SIVID_REPORT_DETAIL_STORED_VALUES_HPP
 #define SIVID_REPORT_DETAIL_STORED_VALUES_HPP
 
+#include <sivid/decision/experiment_design.hpp>
+#include <sivid/decision/gain_search.hpp>
+#include <sivid/decision/measurement_ranking.hpp>
+#include <sivid/decision/prediction.hpp>
+#include <sivid/decision/rank.hpp>
+#include <sivid/decision/requirement.hpp>
+#include <sivid/decision/verification.hpp>
+#include <sivid/io/result/stored_prediction.hpp>
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/io/text/json_writer.hpp>
 #include <sivid/measurement/signal.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/paving/subpaving.hpp>
-#include <sivid/report/decision_page.hpp>
-#include <sivid/report/diagnosis_page.hpp>
+#include <sivid/report/diagnosis_view.hpp>
 #include <sivid/report/identification_view.hpp>
+#include <sivid/report/page.hpp>
 #include <sivid/space/box.hpp>
 
 #include <array>
@@ -24,6 +32,11 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+namespace sivid::report {
+struct simulated_line; // of decision_page.hpp, which stores its pages by this file
+struct decision_page_options;
+} // namespace sivid::report
 
 /// Values of any depth as lists in JSON, and back to the last bit.
 namespace sivid::report::detail {
