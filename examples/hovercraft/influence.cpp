@@ -106,7 +106,7 @@ report::figure bars_of(std::vector<ranked_equation> const& ranking) {
             if (p.occurs) bars.push_back({.label = p.constant, .value = readable(p.effect)});
         if (bars.empty()) continue;
         figure.panels.push_back(report::draw_bar_chart(
-            bars, {.width = 900, .title = e.state + "'", .quantity = "effect", .unit = e.unit}));
+            bars, {.title = e.state + "'", .quantity = "effect", .unit = e.unit}));
         std::cout << e.state << "':";
         for (auto const& b : bars)
             std::cout << " " << b.label << " " << report::outward_text(b.value, {.significant = 2});

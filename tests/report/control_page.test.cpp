@@ -51,11 +51,11 @@ struct asked {
         o.dataset = "d";
         o.scenario = "S";
         o.law = "u0 = K & more";
-        if (!found.suggested) return control_page(*about, what, found, nullptr, nullptr, o).str();
+        if (!found.suggested) return control_page(*about, what, found, {}, {}, o).html;
         about->problem = sivid::with_gains(p, names, *found.suggested);
         auto const proof = sivid::verify(about->problem, what, all_feasible(about->problem));
         auto const tubes = sivid::predict(about->problem, {.cells = 10}, what.margins);
-        return control_page(*about, what, found, &proof, &tubes, o).str();
+        return control_page(*about, what, found, proof, tubes, o).html;
     }
 };
 
@@ -83,8 +83,7 @@ TEST_CASE("ranges of a gain are rounded so that what is said holds all over them
     paving.add({between(second, 1)}, sivid::box_verdict::inside);
     found.paving.paving = paving;
     auto const text =
-        control_page(*a.about, {}, found, nullptr, nullptr, {.dataset = "d", .law = "u0 = K"})
-            .str();
+        control_page(*a.about, {}, found, {}, {}, {.dataset = "d", .law = "u0 = K"}).html;
     CHECK_THAT(text, ContainsSubstring("[0.00000, 0.70707]") &&
                          ContainsSubstring("[0.70716, 1.00000]") &&
                          ContainsSubstring("[0.7070770, 0.7071534]"));

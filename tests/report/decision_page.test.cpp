@@ -34,7 +34,7 @@ std::string page_of(std::string const& text, sivid::verification& found) {
     o.dataset = "d";
     o.scenario = "S <1>";
     o.set = {"Ff in [0, 1]"};
-    return verification_page(*about(p), what, found, tubes, o).str();
+    return verification_page(*about(p), what, found, tubes, o).html;
 }
 
 } // namespace
@@ -59,7 +59,7 @@ TEST_CASE("pages of all three answers are well formed and say them") {
 TEST_CASE("a prediction that ends early says so") {
     auto const p = explosion(between(0.9, 1.1), 2);
     auto const found = sivid::predict(p, {.seconds = 0.5, .cells = 20});
-    auto const text = prediction_page(*about(p), found, {.dataset = "d", .scenario = "S"}).str();
+    auto const text = prediction_page(*about(p), found, {.dataset = "d", .scenario = "S"}).html;
     CHECK(markup_error(body_of(text)) == "");
     CHECK_THAT(text, ContainsSubstring("Proved up to t = ") && ContainsSubstring("not known"));
 }

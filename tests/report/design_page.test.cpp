@@ -54,7 +54,7 @@ struct designed {
         o.dataset = "d";
         o.scenario = "S & T";
         auto const tubes = sivid::predict(about->problem, {.cells = 10});
-        return design_page(*about, answer, &tubes, o).str();
+        return design_page(*about, answer, tubes, o).html;
     }
 };
 

@@ -207,7 +207,6 @@ inline sivid::report::identification_view hovercraft_view(std::size_t boxes, boo
     v.statistics = {12.34, 184211, 1532, "the accuracy asked for is reached"};
     v.scenarios = {hovercraft_scenario(with_outliers)};
     if (with_outliers) {
-        v.outliers = {{"S3", "r", 0.9, true}, {"S3", "r", 2.1, true}, {"S3", "y", 1.5, false}};
         v.warnings = {"One measurement of y at 1.5 s is missed by the witness, though not proved "
                       "to be an outlier."};
     }
@@ -234,10 +233,8 @@ inline sivid::report::identification_view hovercraft_view(std::size_t boxes, boo
                      {0, 0},
                      {0.0712, 0.0713},
                      "bisection only; nothing proved inside"}};
-    v.version = "sivid 0.1.0";
-    v.date = "2024-11-20";
-    v.machine = "2 cores, x86-64";
-    v.command = "hovercraft identify h3 --out out/hovercraft";
+    v.footer = {"sivid 0.1.0", "2024-11-20", "2 cores, x86-64",
+                "hovercraft identify h3 --out out/hovercraft"};
     return v;
 }
 

@@ -66,12 +66,12 @@ TEST_CASE("identification page: what such data can tell stands there when it is 
 TEST_CASE("identification page: hostile texts stay texts") {
     identification_view v = hovercraft_view(2'000, true);
     std::string const evil = "<script>alert(1)</script>\" onload='x' & \x01\xFF]]>";
-    v.dataset = v.model = v.sentence = v.tube_meaning = v.version = evil;
+    v.dataset = v.model = v.sentence = v.tube_meaning = v.footer[0] = evil;
     v.parameters[0].name = v.parameters[0].unit = v.parameters[0].meaning = evil;
     v.combinations[0].formula = v.combinations[0].note = evil;
     v.scenarios[0].name = v.scenarios[0].channels[0].name = v.scenarios[0].channels[0].unit = evil;
     v.pavings[0].x.label = v.pavings[0].x.unit = evil;
-    v.outliers[0].channel = v.comparison[0].name = v.warnings[0] = v.assumptions[0] = evil;
+    v.comparison[0].name = v.warnings[0] = v.assumptions[0] = evil;
     v.witness->parameters[0].name = evil;
     v.identifiability = {evil};
     v.identifiability_at = evil;

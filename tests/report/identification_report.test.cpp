@@ -57,9 +57,10 @@ TEST_CASE("a forced outlier is marked as proved, and its budget shown") {
     auto const problem = two_rates_problem(true);
     auto const found = two_rates_result(problem);
     auto const v = view_of(problem, found, nullptr, {.dataset = "small"});
-    REQUIRE(v.outliers.size() == 1);
-    CHECK(v.outliers[0].proved);
-    CHECK(v.outliers[0].time == 1.5);
+    std::vector<std::pair<double, sample_state>> marked;
+    for_marked(
+        v, [&](auto const&, auto const&, auto const& m) { marked.emplace_back(m.time, m.state); });
+    CHECK(marked == std::vector{std::pair{1.5, sample_state::forced_outlier}});
     REQUIRE(v.scenarios.size() == 1);
     CHECK(v.scenarios[0].outlier_budget == 1);
     CHECK(v.tube_meaning.empty());

@@ -3,7 +3,7 @@
 #include "report/hovercraft_view.hpp"
 #include "support/catch.hpp"
 
-#include <sivid/report/identification_words.hpp>
+#include <sivid/report/identification_page.hpp>
 
 #include <cmath>
 

@@ -30,8 +30,7 @@ TEST_CASE("page: every element, well-formed, in order, with ids that do not clas
                                      {"wind", {2.4, 2.6}},
                                      {"input_delay", {0.8, 3.3}},
                                      {"(nothing added)", {3.1, 3.2}}},
-                                    {.width = 1000,
-                                     .quantity = "inflation that is left",
+                                    {.quantity = "inflation that is left",
                                      .threshold = 1.0,
                                      .threshold_label = "below 1: data explained"});
     page p{{.kind = "Demo", .title = "All <elements>", .lead = "of a page"}};
@@ -48,7 +47,7 @@ TEST_CASE("page: every element, well-formed, in order, with ids that do not clas
                  .title = "Bars.",
                  .caption = "twice",
                  .layout = panel_layout::wide});
-    p.add(figure{.panels = {draw_heat_map(map, {.width = 1000})},
+    p.add(figure{.panels = {draw_heat_map(map)},
                  .title = "Heat.",
                  .caption = "",
                  .layout = panel_layout::wide});

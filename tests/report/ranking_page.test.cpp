@@ -27,13 +27,13 @@ TEST_CASE("a ranking shows a bar for what acts and says what cannot matter") {
     e.measurements = {{1, 0, between(1, 2)}, {2, 0, between(0, 1)}};
     problem.experiments = {e};
     auto const found = sivid::rank(problem);
-    auto const text = ranking_page(problem, found, {.dataset = "d <2>"}).str();
+    auto const text = ranking_page(problem, found, {.dataset = "d <2>"}).html;
     CHECK(markup_error(body_of(text)) == "");
     CHECK_THAT(text, ContainsSubstring("run &amp; more") && ContainsSubstring("d &lt;2&gt;") &&
                          ContainsSubstring("idle &lt;1&gt; cannot matter") &&
                          ContainsSubstring("Proved from both sides"));
     auto const cut = sivid::rank(problem, {.keep_going = [] { return false; }});
-    auto const open = ranking_page(problem, cut, {.dataset = "d"}).str();
+    auto const open = ranking_page(problem, cut, {.dataset = "d"}).html;
     CHECK(markup_error(body_of(open)) == "");
     CHECK_THAT(open, ContainsSubstring("some bounds still apart"));
 }
@@ -79,7 +79,7 @@ TEST_CASE("a ranking shows what measurements are worth") {
     problem.experiments = {e};
     auto const found = sivid::rank(problem);
     auto const worth = sivid::rank_measurements(problem, {.times = 2});
-    auto const text = ranking_page(problem, found, {.dataset = "d"}, &worth).str();
+    auto const text = ranking_page(problem, found, {.dataset = "d"}, worth).html;
     CHECK(markup_error(body_of(text)) == "");
     CHECK_THAT(text, ContainsSubstring("Which measurements matter") &&
                          ContainsSubstring("nothing changes") &&
@@ -87,7 +87,7 @@ TEST_CASE("a ranking shows what measurements are worth") {
     auto none = worth;
     none.groups.clear();
     none.explained = sivid::verdict::inconsistent;
-    CHECK_THAT(ranking_page(problem, found, {.dataset = "d"}, &none).str(),
+    CHECK_THAT(ranking_page(problem, found, {.dataset = "d"}, none).html,
                ContainsSubstring("nothing can grow"));
 }
 

@@ -155,6 +155,8 @@ TEST_CASE("further texts name the unit of time of the model") {
 
     report::identification_view v;
     v.time_unit = "ms";
-    v.outliers.push_back({"E1", "p", 1.5, true});
+    report::channel_series p{.name = "p"};
+    p.measured = {{.time = 1.5, .value = {0, 1}, .state = report::sample_state::forced_outlier}};
+    v.scenarios = {{.name = "E1", .channels = {p}}};
     CHECK_THAT(report::identification_page(v).str(), ContainsSubstring("time [ms]"));
 }

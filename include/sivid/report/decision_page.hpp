@@ -13,6 +13,7 @@
 #include <sivid/model/problem.hpp>
 #include <sivid/report/page.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,16 +44,17 @@ struct decision_page_options {
 [[nodiscard]] SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const& s);
 
 /// A page with the tubes of all channels.
-[[nodiscard]] SIVID_DECL page prediction_page(stored_prediction const& about,
-                                              prediction const& found,
-                                              decision_page_options const& options);
+[[nodiscard]] SIVID_DECL stored_page prediction_page(stored_prediction const& about,
+                                                     prediction const& found,
+                                                     decision_page_options const& options);
 
 /// A page with the answer, the margins of all comparisons against zero, and the tubes.
 /// @param tubes  of the same prediction, followed with `asked.margins`
-[[nodiscard]] SIVID_DECL page verification_page(stored_prediction const& about,
-                                                requirement const& asked, verification const& found,
-                                                prediction const& tubes,
-                                                decision_page_options const& options);
+[[nodiscard]] SIVID_DECL stored_page verification_page(stored_prediction const& about,
+                                                       requirement const& asked,
+                                                       verification const& found,
+                                                       prediction const& tubes,
+                                                       decision_page_options const& options);
 
 /// What is known of the gains, in a sentence.
 [[nodiscard]] SIVID_DECL std::string gain_sentence(gain_set const& found);
@@ -60,21 +62,23 @@ struct decision_page_options {
 /// A page with the set of gains, and what the suggested ones do.
 /// @param about  `with_gains`, if some are suggested
 /// @param proof  of the suggested gains, and the tubes with them, followed with `asked.margins`;
-///               may be null
-[[nodiscard]] SIVID_DECL page control_page(stored_prediction const& about, requirement const& asked,
-                                           gain_set const& found, verification const* proof,
-                                           prediction const* tubes,
-                                           decision_page_options const& options);
+///               may be empty
+[[nodiscard]] SIVID_DECL stored_page control_page(stored_prediction const& about,
+                                                  requirement const& asked, gain_set const& found,
+                                                  std::optional<verification> const& proof,
+                                                  std::optional<prediction> const& tubes,
+                                                  decision_page_options const& options);
 
 /// The answer in a few words, and in a sentence.
 [[nodiscard]] SIVID_DECL std::string design_headline(design_answer const& a);
 [[nodiscard]] SIVID_DECL std::string design_sentence(design_answer const& a);
 
 /// A page with the manoeuvre, its promise, the motion it brings about, and what else was tried.
-/// @param tubes  of the manoeuvre; may be null
-[[nodiscard]] SIVID_DECL page design_page(stored_prediction const& about, design_answer const& a,
-                                          prediction const* tubes,
-                                          decision_page_options const& options);
+/// @param tubes  of the manoeuvre; may be empty
+[[nodiscard]] SIVID_DECL stored_page design_page(stored_prediction const& about,
+                                                 design_answer const& a,
+                                                 std::optional<prediction> const& tubes,
+                                                 decision_page_options const& options);
 
 /// An effect in error bounds, rounded outward.
 [[nodiscard]] SIVID_DECL std::string effect_text(parameter_effect const& e);
@@ -93,11 +97,10 @@ ranking_sentences(identification_problem const& about, ranking const& found);
 
 /// A page with a bar for the effect of each parameter on each channel, full up to what is reached
 /// and hatched up to what is not excluded; and such bars for groups of measurements.
-/// @param measurements  what they are worth; null: not asked
-[[nodiscard]] SIVID_DECL page ranking_page(identification_problem const& about,
-                                           ranking const& found,
-                                           decision_page_options const& options,
-                                           measurement_ranking const* measurements = nullptr);
+/// @param measurements  what they are worth; empty: not asked
+[[nodiscard]] SIVID_DECL stored_page ranking_page(
+    identification_problem const& about, ranking const& found, decision_page_options const& options,
+    std::optional<measurement_ranking> const& measurements = {});
 
 } // namespace sivid::report
 

@@ -458,6 +458,13 @@ inline outcome banner_outcome(diagnosis_view const& v) {
     return explained || needless ? outcome::proved : outcome::undecided;
 }
 
+/// Candidates other than the model as it is that are proved not to explain the data.
+inline std::size_t effects_excluded(diagnosis_view const& v) {
+    return static_cast<std::size_t>(std::count_if(v.causes.begin(), v.causes.end(), [](auto& c) {
+        return !c.effects.empty() && c.verdict == cause_verdict::excluded;
+    }));
+}
+
 /// The whole answer in one sentence.
 inline std::string banner_sentence(diagnosis_view const& v) {
     std::vector<std::string> parts{gap_clause(v)};
@@ -470,15 +477,12 @@ inline std::string banner_sentence(diagnosis_view const& v) {
         if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));
         if (!v.where.empty()) parts.push_back(place_clause(v.where.front(), v.time_unit));
     } else if (v.answer == answer_kind::unexplained) {
-        auto const excluded = std::count_if(v.causes.begin(), v.causes.end(), [](cause const& c) {
-            return !c.effects.empty() && c.verdict == cause_verdict::excluded;
-        });
+        std::size_t const excluded = effects_excluded(v);
         std::string const tried = tried_text(v.tried);
-        parts.push_back(
-            "no candidate was found that explains it" + (tried.empty() ? "" : " (" + tried + ")") +
-            (excluded > 0
-                 ? ", " + count_text(static_cast<std::size_t>(excluded)) + " are excluded (proved)"
-                 : std::string{}));
+        parts.push_back("no candidate was found that explains it" +
+                        (tried.empty() ? "" : " (" + tried + ")") +
+                        (excluded > 0 ? ", " + count_text(excluded) + " are excluded (proved)"
+                                      : std::string{}));
         if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));
         parts.push_back(remainder_clause(v));
         if (!v.where.empty()) parts.push_back(place_clause(v.where.front(), v.time_unit));

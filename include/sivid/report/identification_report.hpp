@@ -9,7 +9,7 @@
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/run/run_reach.hpp>
-#include <sivid/report/identification_page.hpp>
+#include <sivid/report/identification_view.hpp>
 #include <sivid/report/number_text.hpp>
 
 #include <cstddef>
@@ -33,9 +33,8 @@ struct plane_channels {
 
 /// One sentence a line: the ranks, what is free, what acts through which combinations, and the
 /// directions that the data notice least.
-/// @param directions  so many at most
 [[nodiscard]] SIVID_DECL std::vector<std::string>
-identifiability_words(identifiability const& found, std::size_t directions = 3);
+identifiability_words(identifiability const& found);
 
 /// Why runs over all that is left tell little, and what to change: a sentence for each of the first
 /// experiments that say something, from what they measured.

@@ -3,6 +3,7 @@
 #define SIVID_REPORT_IDENTIFICATION_VIEW_HPP
 
 #include <sivid/diagnosis/diagnosis.hpp>
+#include <sivid/paving/strategy/contractor.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/number_text.hpp>
@@ -38,15 +39,6 @@ struct combination_view {
     std::string note{}; ///< e.g. what the data cannot tell apart
 };
 
-/// A marked measurement.
-struct outlier_view {
-    std::string scenario{};
-    std::string channel{};
-    double time = 0;
-    bool proved = false; ///< violated by every parameter that explains the data; else by
-                         ///< the witness only
-};
-
 struct scenario_view {
     std::string name{};
     std::size_t measurements = 0;
@@ -61,14 +53,6 @@ struct statistics_view {
     std::uint64_t integrations = 0;
     std::string stop_reason{};
     std::vector<std::string> why{}; ///< why little is excluded, and what to change
-};
-
-/// What was tried before the search, in words.
-struct tried_view {
-    std::string by{};
-    std::string outcome{}; ///< "gained: 41 % left"
-    std::string why{};     ///< it was tried, or not
-    std::string effort{};  ///< empty: it was not tried
 };
 
 /// One way to solve the same problem, for comparison.
@@ -103,9 +87,8 @@ struct identification_view {
     std::string identifiability_at{};
     std::vector<std::string> assumptions{};
     std::vector<std::string> warnings{};
-    std::vector<outlier_view> outliers{};
     statistics_view statistics{};
-    std::vector<tried_view> tried{};
+    contraction_journal tried{}; ///< before the search
     std::vector<scenario_view> scenarios{};
     std::string tube_meaning{};      ///< what the drawn enclosures enclose
     std::string reference_meaning{}; ///< what the reference line is
@@ -114,10 +97,7 @@ struct identification_view {
     std::vector<paving_projection> product_pavings{};
     std::vector<comparison_row> comparison{};
     std::string comparison_note{};
-    std::string version{};
-    std::string date{};
-    std::string machine{};
-    std::string command{};
+    std::vector<std::string> footer{}; ///< version, date, machine, command
 };
 
 } // namespace sivid::report

@@ -24,8 +24,7 @@ TEST_CASE("paving plot: a sheet of 100 000 boxes is a small picture with a zoom"
     CHECK(zoom->y.hi > 0.0483);
     CHECK(zoom->y.hi < 0.06);
     for (std::string const& text :
-         {draw_paving_plot(p, {.mark_zoom = true}).str(),
-          draw_paving_plot(p, {.x_window = zoom->x, .y_window = zoom->y}).str()}) {
+         {draw_paving_plot(p, "p").str(), draw_paving_plot(p, "p", zoom).str()}) {
         CHECK(markup_error(text) == "");
         CHECK(text.size() < 160'000);
         CHECK(text.find(palette::inside) != std::string::npos);
@@ -41,7 +40,7 @@ TEST_CASE("paving plot: boxes without any order are met with coarser cells") {
                      y = static_cast<double>(seed & 0xFFFFu) / 65536.0;
         p.boxes.push_back({{x, x + 0.001}, {y, y + 0.001}, static_cast<region>(1 + seed % 3)});
     }
-    std::string const text = draw_paving_plot(p).str();
+    std::string const text = draw_paving_plot(p, "p").str();
     CHECK(text.size() < 160'000);
     CHECK(markup_error(text) == "");
 }
@@ -104,6 +103,6 @@ TEST_CASE("paving plot: degenerate priors and boxes") {
                                   {{{-INFINITY, INFINITY}, {NAN, 1}, region::inside},
                                    {{0, 0}, {-INFINITY, INFINITY}, region::undecided}},
                                   point{NAN, 0}};
-        CHECK(markup_error(draw_paving_plot(p, {.mark_zoom = true}).str()) == "");
+        CHECK(markup_error(draw_paving_plot(p, "p").str()) == "");
     }
 }

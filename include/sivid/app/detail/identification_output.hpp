@@ -18,9 +18,9 @@
 #include <sivid/paving/identifiability.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/report/draw/time_plot.hpp>
+#include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
 #include <sivid/report/identification_view.hpp>
-#include <sivid/report/identification_words.hpp>
 #include <sivid/report/stored_page.hpp>
 #include <sivid/work_limit.hpp>
 #ifdef SIVID_HAS_TBB
@@ -38,11 +38,12 @@
 namespace sivid::app::detail {
 
 /// What was tried before a search, a line each.
-inline void print_tried(std::vector<report::tried_view> const& tried) {
-    for (auto const& r : tried) {
-        std::cout << "  " << r.by << ": " << r.outcome;
-        if (!r.effort.empty()) std::cout << " (" << r.effort << ")";
-        std::cout << "; " << r.why << "\n";
+inline void print_tried(contraction_journal const& journal) {
+    for (auto const& row : report::tried_table(journal).rows) {
+        auto const &by = row[0], &outcome = row[1], &why = row[2], &effort = row[3];
+        std::cout << "  " << by << ": " << outcome;
+        if (!effort.empty()) std::cout << " (" << effort << ")";
+        std::cout << "; " << why << "\n";
     }
 }
 

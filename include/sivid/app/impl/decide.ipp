@@ -41,7 +41,7 @@ inline int run_predict(robot const& r, decision_command const& c) {
     progress.finish();
     file_set files(c.out);
     files.add("tubes.csv", tubes_csv(found));
-    report::stored_prediction_page(*about, found, options).add_to(files);
+    report::prediction_page(*about, found, options).add_to(files);
     files.add("prediction.json", prediction_json(*about, found, task.json_options()));
     files.commit();
     std::cout << task.scenario() << " for all parameters that " << task.dataset() << " leaves: "
@@ -100,7 +100,7 @@ inline int run_verify(robot const& r, decision_command const& c) {
             page.single_is = "the witness that violates it, simulated";
         }
         file_set files(c.out);
-        report::stored_verification_page(*about, asked, found, tubes, page).add_to(files);
+        report::verification_page(*about, asked, found, tubes, page).add_to(files);
         files.add("verification.json",
                   verification_json(*about, asked, found, task.json_options()));
         files.commit();
@@ -176,12 +176,11 @@ inline int run_control(robot const& r, decision_command const& c) {
     auto const [proof, tubes] = prove_gains(q, gains, found, c, left, page);
     progress.finish();
     if (!c.out.empty()) {
-        auto const* const proved = proof ? &*proof : nullptr;
         file_set files(c.out);
         files.add("gains.csv", gains_csv(found));
-        report::stored_control_page(*about, asked, found, proved, tubes ? &*tubes : nullptr, page)
-            .add_to(files);
-        files.add("control.json", control_json(*about, asked, found, proved, task.json_options()));
+        report::control_page(*about, asked, found, proof, tubes, page).add_to(files);
+        files.add("control.json", control_json(*about, asked, found, proof ? &*proof : nullptr,
+                                               task.json_options()));
         files.commit();
     }
     print_gains(q, found, proof, c);

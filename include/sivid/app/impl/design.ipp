@@ -125,7 +125,7 @@ public:
             if (found()) follow(progress, page, tubes);
         }
         progress.finish();
-        if (!command_.out.empty()) write(page, tubes ? &*tubes : nullptr);
+        if (!command_.out.empty()) write(page, tubes);
         print();
         return answer_.impossible ? refuted : answer_.met() ? done : undecided;
     }
@@ -180,9 +180,10 @@ private:
         add_lines(page, task, about, {}, 0.3 * left);
     }
 
-    void write(report::decision_page_options const& page, prediction const* tubes) const {
+    void write(report::decision_page_options const& page,
+               std::optional<prediction> const& tubes) const {
         file_set files(command_.out);
-        report::stored_design_page(*one_.about, answer_, tubes, page).add_to(files);
+        report::design_page(*one_.about, answer_, tubes, page).add_to(files);
         auto options = one_.task.json_options();
         if (two_) options.against_digest = two_->task.json_options().source_digest;
         files.add("design.json", design_json(*one_.about, answer_, options));

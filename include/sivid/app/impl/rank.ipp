@@ -147,7 +147,7 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     page.scenario = json.scenario = c.scenario;
     page.footer = page_footer(c.command_line);
     file_set files(c.out);
-    report::stored_ranking_page(problem, found, page, worth).add_to(files);
+    report::ranking_page(problem, found, page, measurements).add_to(files);
     files.add("ranking.json", ranking_json(problem, found, json, worth));
     files.commit();
     detail::print_channels(problem, found);

@@ -233,7 +233,7 @@ private:
             plane.tube.push_back({{step.states[i].lower(), step.states[i].upper()},
                                   {step.states[j].lower(), step.states[j].upper()}});
         page.add(report::figure{
-            .panels = {report::draw_plane_plot(plane, {.width = 1000, .height = 330})},
+            .panels = {report::draw_plane_plot(plane)},
             .legend = report::plane_plot_legend(plane),
             .title = "The motion seen from above.",
             .caption = "Equal scales on both axes; arrowheads show the heading." + about_tube(),

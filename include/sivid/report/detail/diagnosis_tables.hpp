@@ -112,18 +112,15 @@ inline table summary_table(diagnosis_view const& v) {
     bool const answered = v.answer == answer_kind::effects && !v.effects.empty();
     if (!v.confined.empty() && !answered) add("Data", confined_clause(v.confined.front()));
     std::size_t const tried = effects_tried(v);
-    std::size_t excluded = 0;
-    for (cause const& c : v.causes) {
-        excluded += !c.effects.empty() && c.verdict == cause_verdict::excluded ? 1 : 0;
-    }
     std::string const all = tried_text(v.tried);
     std::size_t const planned = v.tried.planned();
     bool const beyond = planned > 0 && tried > planned;
-    std::string const count =
-        tried == 0
-            ? ""
-            : "; " + count_text(excluded) + " of the " + count_text(tried) + " candidates tried" +
-                  (beyond ? ", those beyond the plan among them," : "") + " are excluded (proved)";
+    std::string const count = tried == 0
+                                  ? ""
+                                  : "; " + count_text(effects_excluded(v)) + " of the " +
+                                        count_text(tried) + " candidates tried" +
+                                        (beyond ? ", those beyond the plan among them," : "") +
+                                        " are excluded (proved)";
     if (answered) {
         add("Effect", answer_clause(v) + count + (v.interrupted && !all.empty() ? "; " + all : ""));
     } else if (v.answer == answer_kind::unexplained) {
@@ -187,16 +184,15 @@ inline table causes_table(diagnosis_view const& v, std::size_t most = 12) {
     table t{.columns = columns("candidate|verdict|parameter|#value|#proved range|#prior|unit")};
     auto const answer = answer_of(v);
     for (cause const* c : foremost(v, most)) {
+        auto const look = look_of(c->verdict);
         bool first = true;
         for (auto const& [e, verified] : parameters_of(*c)) {
             if (c == answer && first) t.chosen_row = t.rows.size();
-            t.rows.push_back({first ? names_of(c->effects) : "",
-                              first ? kept_together(std::string{state_sign(c->verdict)} + ' ' +
-                                                    std::string{state_words(c->verdict)})
-                                    : "",
-                              e.name, value_text(e, verified), hull_text(e),
-                              e.prior ? given_text(e.prior) : "",
-                              kept_together(unit_text(e.unit))});
+            t.rows.push_back(
+                {first ? names_of(c->effects) : "",
+                 first ? kept_together(std::string{look.sign} + ' ' + std::string{look.words}) : "",
+                 e.name, value_text(e, verified), hull_text(e), e.prior ? given_text(e.prior) : "",
+                 kept_together(unit_text(e.unit))});
             first = false;
         }
     }
@@ -327,7 +323,7 @@ inline figure misfit_figure(diagnosis_view const& v) {
     auto after = after_words(v);
     if (after.size() > longest) after = "with these effects";
     for (pair const& p : maps) {
-        heat_map_options o{.width = 540, .title = {}, .largest = largest, .key = f.panels.empty()};
+        heat_map_options o{.title = {}, .largest = largest, .key = f.panels.empty()};
         if (!p.before.times.empty()) {
             o.title = p.name + ": model as it is";
             f.panels.push_back(draw_heat_map(p.before, o));

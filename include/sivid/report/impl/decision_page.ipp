@@ -6,6 +6,7 @@
 
 #include <sivid/decision/requirement.hpp>
 #include <sivid/number/text/joined.hpp>
+#include <sivid/report/detail/stored_values.hpp>
 #include <sivid/report/draw/charts.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
 #include <sivid/report/draw/time_plot.hpp>
@@ -171,141 +172,6 @@ inline void add_basis(page& out, stored_prediction const& about, decision_page_o
     out.footer(o.footer);
 }
 
-} // namespace detail
-
-SIVID_DECL std::string answer_sentence(stored_prediction const& about, verification const& found) {
-    range const r{found.found.low, found.found.high};
-    switch (found.answer) {
-    case requirement_answer::proved:
-        return "It holds for every parameter that the identification leaves and every start of the "
-               "scenario, at every instant" +
-               std::string{is_finite(r) ? "; the robustness is within " + outward_text(r) : ""} +
-               ".";
-    case requirement_answer::refuted: {
-        auto const& w = *found.witness;
-        auto const start = detail::start_of(about.direct, w.start);
-        return "Violated at " + detail::named(about.direct.choice.unknown, w.parameters) +
-               ", which the data allow (proved by validated runs" +
-               (about.feasible_with.empty() ? "" : "; " + about.feasible_with) + ")" +
-               (start.empty() ? "" : ", from the start " + start) + ": its robustness is at most " +
-               rounded_text(w.found.high, rounding::up) + ".";
-    }
-    case requirement_answer::open:
-        break;
-    }
-    auto const& b = found.open.front();
-    std::string text =
-        "Neither proved nor refuted: " + count_text(found.open.size()) +
-        (found.open.size() == 1 ? " box is open; " : " boxes are open; the largest ") + "is " +
-        std::string{to_string(b.why)};
-    if (b.why == open_reason::not_enclosed)
-        text += " (motions are enclosed up to t = " + exact_text(b.reached) + " " +
-                about.problem.model.about.time_unit + ")";
-    text += ", at ";
-    for (std::size_t j = 0; j < b.parameters.size(); ++j)
-        text += (j > 0 ? ", " : "") + formula_text(about.sides[j]) + " in " +
-                detail::text_of(b.parameters[j]);
-    return text + ".";
-}
-
-SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const& s) {
-    std::vector<std::string> lines;
-    lines.push_back("The identification's result is taken as it stands: what it excludes is "
-                    "excluded. `check --all` proves that anew. A witness of a violation does not "
-                    "rest on it.");
-    for (auto const& a : s.assumptions) lines.push_back(a + ".");
-    auto const& inputs = s.problem.inputs;
-    bool const exact = std::none_of(inputs.begin(), inputs.end(), is_uncertain);
-    lines.push_back(
-        "The scenario's inputs " +
-        std::string{exact ? "act exactly as stated" : "stay within their stated errors"} +
-        ", and the model's equations hold in it.");
-    if (!s.not_in_products.empty())
-        lines.push_back("The products that the data fix do not tell this prediction (" +
-                        s.not_in_products +
-                        "): it is made in the parameters themselves, where "
-                        "the result is drawn more coarsely.");
-    return lines;
-}
-
-SIVID_DECL page prediction_page(stored_prediction const& about, prediction const& found,
-                                decision_page_options const& o) {
-    page out{{.kind = "Prediction",
-              .title = o.scenario + ", from " + o.dataset,
-              .lead = o.about.empty() ? "All motions that the identification leaves." : o.about}};
-    out.banner(found.complete ? outcome::proved : outcome::undecided,
-               found.complete ? "Proved for the whole scenario"
-                              : "Proved up to t = " + exact_text(found.reached) + " " +
-                                    about.problem.model.about.time_unit,
-               found.complete
-                   ? "Every motion runs within the tubes at every instant."
-                   : "The enclosure ends before the scenario does, or has gaps: a smaller set of "
-                     "parameters, more time (--budget) or a shorter scenario may help.");
-    std::vector<card> cards;
-    if (std::isfinite(found.excess))
-        cards.push_back({"against what is reached", "≤ " + wider_text(found.excess),
-                         "at the instants, by the parameters and starts themselves"});
-    detail::add_effort(out, cards, found.seconds, found.parts, found.integrations);
-    detail::add_motions(out, found, o);
-    out.section("At the end");
-    table t{.columns = columns("*quantity|#range|unit")};
-    for (auto const& c : found.channels) {
-        range const r{c.low.back(), c.high.back()};
-        t.rows.push_back({c.name, is_finite(r) ? outward_text(r) : "not known", unit_text(c.unit)});
-    }
-    out.add(t);
-    detail::add_basis(out, about, o, decision_assumptions(about));
-    return out;
-}
-
-SIVID_DECL page verification_page(stored_prediction const& about, requirement const& asked,
-                                  verification const& found, prediction const& tubes,
-                                  decision_page_options const& o) {
-    page out{
-        {.kind = "Verification", .title = asked.text, .lead = o.scenario + ", from " + o.dataset}};
-    bool const proved = found.answer == requirement_answer::proved;
-    bool const refuted = found.answer == requirement_answer::refuted;
-    out.banner(proved    ? outcome::proved
-               : refuted ? outcome::refuted
-                         : outcome::undecided,
-               proved    ? "Proved"
-               : refuted ? "Refuted"
-                         : "Open",
-               answer_sentence(about, found));
-    card const robustness{
-        "robustness",
-        refuted ? "≤ " + rounded_text(found.witness->found.high, rounding::up)
-                : detail::bounds_text(found.found),
-        std::string{refuted ? "of the motion that violates it" : "of all motions"} +
-            "; above 0 the requirement holds"};
-    detail::add_effort(out, {robustness}, found.seconds, found.parts, found.integrations);
-    detail::add_margins(out, asked, tubes, o);
-    if (!found.open.empty()) {
-        table t;
-        for (auto const& side : about.sides)
-            t.columns.push_back({formula_text(side), column_kind::number});
-        t.columns.push_back({"robustness", column_kind::number});
-        t.columns.push_back({"why", column_kind::note});
-        for (std::size_t k = 0; k < std::min<std::size_t>(found.open.size(), 40); ++k) {
-            auto const& b = found.open[k];
-            std::vector<std::string> row;
-            for (auto const& side : b.parameters) row.push_back(detail::text_of(side));
-            row.push_back(detail::bounds_text(b.found));
-            row.push_back(std::string{to_string(b.why)});
-            t.rows.push_back(std::move(row));
-        }
-        if (found.open.size() > 40)
-            t.caption = "The largest 40 of " + count_text(found.open.size()) + ".";
-        out.section("Where it is open").add(t);
-    }
-    out.section("The motion");
-    detail::add_motions(out, tubes, o);
-    detail::add_basis(out, about, o, decision_assumptions(about));
-    return out;
-}
-
-namespace detail {
-
 inline std::string excluded_percent(subpaving const& paving) {
     using traits = interval_traits<interval>;
     auto const rest = traits::sub(traits::point(1.0), paving.outer_volume());
@@ -354,91 +220,6 @@ inline void add_gains(page& out, gain_set const& found) {
     }
     out.add(t);
 }
-
-} // namespace detail
-
-SIVID_DECL std::string gain_sentence(gain_set const& found) {
-    auto const& paving = found.paving.paving;
-    std::string const why{to_string(found.paving.reason)};
-    if (found.none_exists())
-        return "Every gain in the ranges violates the requirement for some parameter that the data "
-               "allow: no law of this form meets it for all.";
-    auto const excluded = detail::excluded_percent(paving);
-    if (!found.some_proved())
-        return "No gain is proved, and not all are excluded (" + why + "): at least " + excluded +
-               " of the ranges are." +
-               (found.unknown ? " Of some gains nothing is known, since what the requirement is "
-                                "provided for is not kept, such as the slew limit."
-                              : "") +
-               (found.against.empty() ? " No parameter is known that violates it." : "");
-    std::string text = "Proved for every parameter that the identification leaves and every start "
-                       "of the scenario, at every instant: ";
-    if (found.suggested) text += detail::named(found.names, *found.suggested);
-    for (std::size_t k = 0; k < found.tolerance.size(); ++k)
-        text += (k == 0 ? ", all around with " : ", ") + found.names[k] + " in " +
-                inward_text(found.tolerance[k]).value_or("no range of a few digits");
-    double const inner = paving.inner_volume().lower();
-    if (inner > 0)
-        text += (found.suggested ? ", at least " : "at least ") + at_least_percent(inner) +
-                " of the ranges";
-    if (paving.outer_volume().upper() < 1) text += "; at least " + excluded + " are excluded";
-    return text + ".";
-}
-
-SIVID_DECL page control_page(stored_prediction const& about, requirement const& asked,
-                             gain_set const& found, verification const* proof,
-                             prediction const* tubes, decision_page_options const& o) {
-    page out{{.kind = "Control law",
-              .title = o.law,
-              .lead = asked.text + ". " + o.scenario + ", from " + o.dataset}};
-    out.banner(found.some_proved()   ? outcome::proved
-               : found.none_exists() ? outcome::refuted
-                                     : outcome::undecided,
-               found.some_proved()   ? "Gains are proved"
-               : found.none_exists() ? "No gain will do"
-                                     : "No gain is proved",
-               gain_sentence(found));
-    std::vector<card> cards;
-    auto const& paving = found.paving.paving;
-    cards.push_back(
-        {"proved", at_least_percent(paving.inner_volume().lower()), "of the ranges of the gains"});
-    cards.push_back({"excluded", detail::excluded_percent(paving),
-                     "each violates it for a parameter that the data allow"});
-    if (proof != nullptr)
-        cards.push_back({"robustness", "≥ " + rounded_text(proof->found.low, rounding::down),
-                         "of the suggested gains"});
-    detail::add_effort(out, cards, found.seconds, {}, found.integrations);
-    detail::add_gains(out, found);
-    if (found.suggested && proof != nullptr) {
-        out.section("With " + detail::named(found.names, *found.suggested));
-        out.prose(answer_sentence(about, *proof));
-        if (tubes != nullptr) {
-            detail::add_margins(out, asked, *tubes, o);
-            detail::add_motions(out, *tubes, o);
-        }
-    }
-    if (!found.against.empty()) {
-        out.section("What excludes gains");
-        table t;
-        for (auto const& name : about.direct.choice.unknown)
-            t.columns.push_back({name, column_kind::number});
-        t.columns.push_back({"robustness", column_kind::number});
-        for (auto const& w : found.against) {
-            std::vector<std::string> row;
-            for (double const x : w.parameters) row.push_back(rounded_text(x, rounding::nearest));
-            row.push_back("≤ " + rounded_text(w.found.high, rounding::up));
-            t.rows.push_back(std::move(row));
-        }
-        t.caption = "Parameters that the data allow (proved by validated runs), each with a gain "
-                    "under which it violates the requirement. Every excluded box of gains "
-                    "violates it for one of them. Rounded; control.json has them in full.";
-        out.add(t);
-    }
-    detail::add_basis(out, about, o, decision_assumptions(about));
-    return out;
-}
-
-namespace detail {
 
 inline std::string goal_texts(design_answer const& a) {
     if (a.goals.empty()) return a.first + " or " + a.second;
@@ -531,7 +312,261 @@ inline std::string hidden_sentence(design_answer const& a) {
     return text + ".";
 }
 
+/// What the data would lose without some of the measurements.
+inline void add_worth(page& out, identification_problem const& about,
+                      measurement_ranking const& found) {
+    out.section("Which measurements matter");
+    if (found.groups.empty()) {
+        out.prose(found.explained == verdict::inconsistent
+                      ? "No parameter explains all of the data: nothing can grow."
+                      : "Nothing was compared.");
+        return;
+    }
+    table t{.columns = columns("without|#measurements|what explains the rest grows")};
+    std::vector<bar> bars;
+    std::vector<std::string> idle;
+    for (auto const& g : found.groups) {
+        auto const name = group_text(about, g.what);
+        t.rows.push_back({name, count_text(g.measurements), growth_text(g.growth)});
+        if (g.changes_nothing()) {
+            idle.push_back(name);
+            continue;
+        }
+        using traits = interval_traits<interval>;
+        auto const more = traits::mul(traits::sub(g.growth, traits::point(1)), traits::point(100));
+        bars.push_back({.label = name, .value = {std::max(0.0, more.lower()), more.upper()}});
+    }
+    if (!idle.empty())
+        out.prose("Nothing changes without any one of these, which follow from the others: " +
+                  sivid::joined(idle, "; ") + ".");
+    auto const sides = sivid::joined(found.coordinates);
+    if (!bars.empty())
+        out.add(
+            figure{.panels = {draw_bar_chart(bars, {.title = "Growth without them",
+                                                    .quantity = "what is added to the volume",
+                                                    .unit = "%"})},
+                   .title = "What is added to the set of parameters without a group of "
+                            "measurements.",
+                   .caption = "Volumes of " + sides +
+                              ". Full up to what is proved to be added, hatched up to what may be.",
+                   .layout = panel_layout::wide});
+    out.add(t);
+}
+
 } // namespace detail
+
+SIVID_DECL std::string answer_sentence(stored_prediction const& about, verification const& found) {
+    range const r{found.found.low, found.found.high};
+    switch (found.answer) {
+    case requirement_answer::proved:
+        return "It holds for every parameter that the identification leaves and every start of the "
+               "scenario, at every instant" +
+               std::string{is_finite(r) ? "; the robustness is within " + outward_text(r) : ""} +
+               ".";
+    case requirement_answer::refuted: {
+        auto const& w = *found.witness;
+        auto const start = detail::start_of(about.direct, w.start);
+        return "Violated at " + detail::named(about.direct.choice.unknown, w.parameters) +
+               ", which the data allow (proved by validated runs" +
+               (about.feasible_with.empty() ? "" : "; " + about.feasible_with) + ")" +
+               (start.empty() ? "" : ", from the start " + start) + ": its robustness is at most " +
+               rounded_text(w.found.high, rounding::up) + ".";
+    }
+    case requirement_answer::open:
+        break;
+    }
+    auto const& b = found.open.front();
+    std::string text =
+        "Neither proved nor refuted: " + count_text(found.open.size()) +
+        (found.open.size() == 1 ? " box is open; " : " boxes are open; the largest ") + "is " +
+        std::string{to_string(b.why)};
+    if (b.why == open_reason::not_enclosed)
+        text += " (motions are enclosed up to t = " + exact_text(b.reached) + " " +
+                about.problem.model.about.time_unit + ")";
+    text += ", at ";
+    for (std::size_t j = 0; j < b.parameters.size(); ++j)
+        text += (j > 0 ? ", " : "") + formula_text(about.sides[j]) + " in " +
+                detail::text_of(b.parameters[j]);
+    return text + ".";
+}
+
+SIVID_DECL std::vector<std::string> decision_assumptions(stored_prediction const& s) {
+    std::vector<std::string> lines;
+    lines.push_back("The identification's result is taken as it stands: what it excludes is "
+                    "excluded. `check --all` proves that anew. A witness of a violation does not "
+                    "rest on it.");
+    for (auto const& a : s.assumptions) lines.push_back(a + ".");
+    auto const& inputs = s.problem.inputs;
+    bool const exact = std::none_of(inputs.begin(), inputs.end(), is_uncertain);
+    lines.push_back(
+        "The scenario's inputs " +
+        std::string{exact ? "act exactly as stated" : "stay within their stated errors"} +
+        ", and the model's equations hold in it.");
+    if (!s.not_in_products.empty())
+        lines.push_back("The products that the data fix do not tell this prediction (" +
+                        s.not_in_products +
+                        "): it is made in the parameters themselves, where "
+                        "the result is drawn more coarsely.");
+    return lines;
+}
+
+SIVID_DECL stored_page prediction_page(stored_prediction const& about, prediction const& found,
+                                       decision_page_options const& o) {
+    page out{{.kind = "Prediction",
+              .title = o.scenario + ", from " + o.dataset,
+              .lead = o.about.empty() ? "All motions that the identification leaves." : o.about}};
+    out.banner(found.complete ? outcome::proved : outcome::undecided,
+               found.complete ? "Proved for the whole scenario"
+                              : "Proved up to t = " + exact_text(found.reached) + " " +
+                                    about.problem.model.about.time_unit,
+               found.complete
+                   ? "Every motion runs within the tubes at every instant."
+                   : "The enclosure ends before the scenario does, or has gaps: a smaller set of "
+                     "parameters, more time (--budget) or a shorter scenario may help.");
+    std::vector<card> cards;
+    if (std::isfinite(found.excess))
+        cards.push_back({"against what is reached", "≤ " + wider_text(found.excess),
+                         "at the instants, by the parameters and starts themselves"});
+    detail::add_effort(out, cards, found.seconds, found.parts, found.integrations);
+    detail::add_motions(out, found, o);
+    out.section("At the end");
+    table t{.columns = columns("*quantity|#range|unit")};
+    for (auto const& c : found.channels) {
+        range const r{c.low.back(), c.high.back()};
+        t.rows.push_back({c.name, is_finite(r) ? outward_text(r) : "not known", unit_text(c.unit)});
+    }
+    out.add(t);
+    detail::add_basis(out, about, o, decision_assumptions(about));
+    return detail::stored_as("prediction", "prediction", out, about, found, o);
+}
+
+SIVID_DECL stored_page verification_page(stored_prediction const& about, requirement const& asked,
+                                         verification const& found, prediction const& tubes,
+                                         decision_page_options const& o) {
+    page out{
+        {.kind = "Verification", .title = asked.text, .lead = o.scenario + ", from " + o.dataset}};
+    bool const proved = found.answer == requirement_answer::proved;
+    bool const refuted = found.answer == requirement_answer::refuted;
+    out.banner(proved    ? outcome::proved
+               : refuted ? outcome::refuted
+                         : outcome::undecided,
+               proved    ? "Proved"
+               : refuted ? "Refuted"
+                         : "Open",
+               answer_sentence(about, found));
+    card const robustness{
+        "robustness",
+        refuted ? "≤ " + rounded_text(found.witness->found.high, rounding::up)
+                : detail::bounds_text(found.found),
+        std::string{refuted ? "of the motion that violates it" : "of all motions"} +
+            "; above 0 the requirement holds"};
+    detail::add_effort(out, {robustness}, found.seconds, found.parts, found.integrations);
+    detail::add_margins(out, asked, tubes, o);
+    if (!found.open.empty()) {
+        table t;
+        for (auto const& side : about.sides)
+            t.columns.push_back({formula_text(side), column_kind::number});
+        t.columns.push_back({"robustness", column_kind::number});
+        t.columns.push_back({"why", column_kind::note});
+        for (std::size_t k = 0; k < std::min<std::size_t>(found.open.size(), 40); ++k) {
+            auto const& b = found.open[k];
+            std::vector<std::string> row;
+            for (auto const& side : b.parameters) row.push_back(detail::text_of(side));
+            row.push_back(detail::bounds_text(b.found));
+            row.push_back(std::string{to_string(b.why)});
+            t.rows.push_back(std::move(row));
+        }
+        if (found.open.size() > 40)
+            t.caption = "The largest 40 of " + count_text(found.open.size()) + ".";
+        out.section("Where it is open").add(t);
+    }
+    out.section("The motion");
+    detail::add_motions(out, tubes, o);
+    detail::add_basis(out, about, o, decision_assumptions(about));
+    return detail::stored_as("verification", "verification", out, about, asked, found, tubes, o);
+}
+
+SIVID_DECL std::string gain_sentence(gain_set const& found) {
+    auto const& paving = found.paving.paving;
+    std::string const why{to_string(found.paving.reason)};
+    if (found.none_exists())
+        return "Every gain in the ranges violates the requirement for some parameter that the data "
+               "allow: no law of this form meets it for all.";
+    auto const excluded = detail::excluded_percent(paving);
+    if (!found.some_proved())
+        return "No gain is proved, and not all are excluded (" + why + "): at least " + excluded +
+               " of the ranges are." +
+               (found.unknown ? " Of some gains nothing is known, since what the requirement is "
+                                "provided for is not kept, such as the slew limit."
+                              : "") +
+               (found.against.empty() ? " No parameter is known that violates it." : "");
+    std::string text = "Proved for every parameter that the identification leaves and every start "
+                       "of the scenario, at every instant: ";
+    if (found.suggested) text += detail::named(found.names, *found.suggested);
+    for (std::size_t k = 0; k < found.tolerance.size(); ++k)
+        text += (k == 0 ? ", all around with " : ", ") + found.names[k] + " in " +
+                inward_text(found.tolerance[k]).value_or("no range of a few digits");
+    double const inner = paving.inner_volume().lower();
+    if (inner > 0)
+        text += (found.suggested ? ", at least " : "at least ") + at_least_percent(inner) +
+                " of the ranges";
+    if (paving.outer_volume().upper() < 1) text += "; at least " + excluded + " are excluded";
+    return text + ".";
+}
+
+SIVID_DECL stored_page control_page(stored_prediction const& about, requirement const& asked,
+                                    gain_set const& found, std::optional<verification> const& proof,
+                                    std::optional<prediction> const& tubes,
+                                    decision_page_options const& o) {
+    page out{{.kind = "Control law",
+              .title = o.law,
+              .lead = asked.text + ". " + o.scenario + ", from " + o.dataset}};
+    out.banner(found.some_proved()   ? outcome::proved
+               : found.none_exists() ? outcome::refuted
+                                     : outcome::undecided,
+               found.some_proved()   ? "Gains are proved"
+               : found.none_exists() ? "No gain will do"
+                                     : "No gain is proved",
+               gain_sentence(found));
+    std::vector<card> cards;
+    auto const& paving = found.paving.paving;
+    cards.push_back(
+        {"proved", at_least_percent(paving.inner_volume().lower()), "of the ranges of the gains"});
+    cards.push_back({"excluded", detail::excluded_percent(paving),
+                     "each violates it for a parameter that the data allow"});
+    if (proof)
+        cards.push_back({"robustness", "≥ " + rounded_text(proof->found.low, rounding::down),
+                         "of the suggested gains"});
+    detail::add_effort(out, cards, found.seconds, {}, found.integrations);
+    detail::add_gains(out, found);
+    if (found.suggested && proof) {
+        out.section("With " + detail::named(found.names, *found.suggested));
+        out.prose(answer_sentence(about, *proof));
+        if (tubes) {
+            detail::add_margins(out, asked, *tubes, o);
+            detail::add_motions(out, *tubes, o);
+        }
+    }
+    if (!found.against.empty()) {
+        out.section("What excludes gains");
+        table t;
+        for (auto const& name : about.direct.choice.unknown)
+            t.columns.push_back({name, column_kind::number});
+        t.columns.push_back({"robustness", column_kind::number});
+        for (auto const& w : found.against) {
+            std::vector<std::string> row;
+            for (double const x : w.parameters) row.push_back(rounded_text(x, rounding::nearest));
+            row.push_back("≤ " + rounded_text(w.found.high, rounding::up));
+            t.rows.push_back(std::move(row));
+        }
+        t.caption = "Parameters that the data allow (proved by validated runs), each with a gain "
+                    "under which it violates the requirement. Every excluded box of gains "
+                    "violates it for one of them. Rounded; control.json has them in full.";
+        out.add(t);
+    }
+    detail::add_basis(out, about, o, decision_assumptions(about));
+    return detail::stored_as("control", "control", out, about, asked, found, proof, tubes, o);
+}
 
 SIVID_DECL std::string design_headline(design_answer const& a) {
     auto const goals = detail::goal_texts(a);
@@ -583,8 +618,9 @@ SIVID_DECL std::string design_sentence(design_answer const& a) {
     return text + " (proved).";
 }
 
-SIVID_DECL page design_page(stored_prediction const& about, design_answer const& a,
-                            prediction const* tubes, decision_page_options const& o) {
+SIVID_DECL stored_page design_page(stored_prediction const& about, design_answer const& a,
+                                   std::optional<prediction> const& tubes,
+                                   decision_page_options const& o) {
     page out{{.kind = "Design of an experiment",
               .title = detail::goal_texts(a),
               .lead = o.scenario + ", from " + o.dataset +
@@ -610,7 +646,7 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
         detail::add_promises(out, a, *best->promised);
         detail::add_inputs(out, about, *best, a.varied);
         detail::add_plan(out, about, a);
-        if (tubes != nullptr) detail::add_motions(out, *tubes, o);
+        if (tubes) detail::add_motions(out, *tubes, o);
     }
     if (!a.found.tried.empty()) detail::add_tried(out, a);
     auto assumptions = decision_assumptions(about);
@@ -618,7 +654,7 @@ SIVID_DECL page design_page(stored_prediction const& about, design_answer const&
         assumptions.push_back("The errors of the new measurements stay within the bounds that are "
                               "stated here.");
     detail::add_basis(out, about, o, assumptions);
-    return out;
+    return detail::stored_as("design", "design", out, about, a, tubes, o);
 }
 
 SIVID_DECL std::string effect_text(parameter_effect const& e) {
@@ -690,55 +726,9 @@ SIVID_DECL std::string growth_text(interval const& growth) {
     return growth.lower() > 1 ? low + " to " + high + " times" : "at most " + high + " times";
 }
 
-namespace detail {
-
-/// What the data would lose without some of the measurements.
-inline void add_worth(page& out, identification_problem const& about,
-                      measurement_ranking const& found) {
-    out.section("Which measurements matter");
-    if (found.groups.empty()) {
-        out.prose(found.explained == verdict::inconsistent
-                      ? "No parameter explains all of the data: nothing can grow."
-                      : "Nothing was compared.");
-        return;
-    }
-    table t{.columns = columns("without|#measurements|what explains the rest grows")};
-    std::vector<bar> bars;
-    std::vector<std::string> idle;
-    for (auto const& g : found.groups) {
-        auto const name = group_text(about, g.what);
-        t.rows.push_back({name, count_text(g.measurements), growth_text(g.growth)});
-        if (g.changes_nothing()) {
-            idle.push_back(name);
-            continue;
-        }
-        using traits = interval_traits<interval>;
-        auto const more = traits::mul(traits::sub(g.growth, traits::point(1)), traits::point(100));
-        bars.push_back({.label = name, .value = {std::max(0.0, more.lower()), more.upper()}});
-    }
-    if (!idle.empty())
-        out.prose("Nothing changes without any one of these, which follow from the others: " +
-                  sivid::joined(idle, "; ") + ".");
-    auto const sides = sivid::joined(found.coordinates);
-    if (!bars.empty())
-        out.add(
-            figure{.panels = {draw_bar_chart(bars, {.width = 900,
-                                                    .title = "Growth without them",
-                                                    .quantity = "what is added to the volume",
-                                                    .unit = "%"})},
-                   .title = "What is added to the set of parameters without a group of "
-                            "measurements.",
-                   .caption = "Volumes of " + sides +
-                              ". Full up to what is proved to be added, hatched up to what may be.",
-                   .layout = panel_layout::wide});
-    out.add(t);
-}
-
-} // namespace detail
-
-SIVID_DECL page ranking_page(identification_problem const& about, ranking const& found,
-                             decision_page_options const& o,
-                             measurement_ranking const* measurements) {
+SIVID_DECL stored_page ranking_page(identification_problem const& about, ranking const& found,
+                                    decision_page_options const& o,
+                                    std::optional<measurement_ranking> const& measurements) {
     page out{{.kind = "Ranking",
               .title = o.scenario.empty() ? o.dataset : o.scenario,
               .lead = "How far can each parameter alone move the measurements?"}};
@@ -770,8 +760,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
             t.rows.push_back({experiment, channel, name, effect_text(e), text});
         }
         if (bars.empty()) continue;
-        f.panels.push_back(draw_bar_chart(bars, {.width = 900,
-                                                 .title = channel + ", " + experiment,
+        f.panels.push_back(draw_bar_chart(bars, {.title = channel + ", " + experiment,
                                                  .quantity = "effect",
                                                  .unit = "error bounds",
                                                  .threshold = 1,
@@ -780,7 +769,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
     out.add(f);
     t.caption = "Place: among the parameters; one number where the bounds certify it.";
     out.add(t);
-    if (measurements != nullptr) detail::add_worth(out, about, *measurements);
+    if (measurements) detail::add_worth(out, about, *measurements);
     out.section("Over what");
     table prior{.columns = columns("*parameter|#prior")};
     for (std::size_t j = 0; j < about.prior.size(); ++j)
@@ -792,7 +781,7 @@ SIVID_DECL page ranking_page(identification_problem const& about, ranking const&
          "Effects: at the instants of the measurements, against half the width of their "
          "bounds; what was measured does not enter."});
     out.footer(o.footer);
-    return out;
+    return detail::stored_as("ranking", "ranking", out, about, found, o, measurements);
 }
 
 } // namespace sivid::report

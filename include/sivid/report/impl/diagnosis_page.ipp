@@ -6,7 +6,6 @@
 
 #include <sivid/number/text/joined.hpp>
 #include <sivid/report/detail/diagnosis_tables.hpp>
-#include <sivid/report/detail/tried_words.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/identification_page.hpp>
 #include <sivid/report/identification_report.hpp>
@@ -115,6 +114,22 @@ inline void add_basis(page& out, diagnosis_view const& v) {
               (v.about.machine.empty() ? "" : "Machine: " + v.about.machine + "."));
 }
 
+/// Marks the q largest misfits beyond their bounds; none without an outlier budget.
+inline std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
+                                  std::size_t q) {
+    std::vector<std::size_t> beyond;
+    for (std::size_t i = 0; i < std::min(n, residuals.size()); ++i) {
+        if (std::fabs(residuals[i]) > 1) beyond.push_back(i);
+    }
+    std::stable_sort(beyond.begin(), beyond.end(), [&](std::size_t a, std::size_t b) {
+        return std::fabs(residuals[a]) > std::fabs(residuals[b]);
+    });
+    beyond.resize(std::min(beyond.size(), q));
+    std::vector<bool> out(n, false);
+    for (std::size_t const i : beyond) out[i] = true;
+    return out;
+}
+
 } // namespace detail
 
 SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
@@ -152,7 +167,7 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     out.add(constants_table(v));
     if (!v.journal.empty()) {
         out.subsection("What was tried to bound them");
-        out.add(tried_table(tried_words(v.journal)));
+        out.add(tried_table(v.journal));
     }
     detail::add_remainder(out, v);
     detail::add_comparison(out, v);
@@ -161,26 +176,6 @@ SIVID_DECL page diagnosis_page(diagnosis_view const& v) {
     out.footer({"sivid " + std::string{version}, v.about.date});
     return out;
 }
-
-namespace detail {
-
-/// Marks the q largest misfits beyond their bounds; none without an outlier budget.
-inline std::vector<bool> suspects(std::vector<double> const& residuals, std::size_t n,
-                                  std::size_t q) {
-    std::vector<std::size_t> beyond;
-    for (std::size_t i = 0; i < std::min(n, residuals.size()); ++i) {
-        if (std::fabs(residuals[i]) > 1) beyond.push_back(i);
-    }
-    std::stable_sort(beyond.begin(), beyond.end(), [&](std::size_t a, std::size_t b) {
-        return std::fabs(residuals[a]) > std::fabs(residuals[b]);
-    });
-    beyond.resize(std::min(beyond.size(), q));
-    std::vector<bool> out(n, false);
-    for (std::size_t const i : beyond) out[i] = true;
-    return out;
-}
-
-} // namespace detail
 
 SIVID_DECL std::vector<compared_scenario> compared_scenarios(identification_problem const& problem,
                                                              approximate_fit const& base,

@@ -9,8 +9,8 @@
 #include <sivid/number/text/joined.hpp>
 #include <sivid/paving/excluded_between.hpp>
 #include <sivid/paving/verdict.hpp>
-#include <sivid/report/detail/tried_words.hpp>
 #include <sivid/report/draw/paving_plot.hpp>
+#include <sivid/report/identification_page.hpp>
 #include <sivid/version.hpp>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace sivid::report {
 
 namespace detail {
 
-inline std::string nearest_text(double x) {
-    return rounded_text(x, rounding::nearest, {.significant = 2});
+inline std::string brief(double x, rounding way = rounding::nearest) {
+    return rounded_text(x, way, {.significant = 2});
 }
 
 /// "L * k, Sg / k" or "a + s, b - 2 s": what may move together.
@@ -58,64 +58,9 @@ inline std::string direction_text(sensitive_direction const& d,
     for (auto const c : order) {
         double const x = d.components[c];
         if (!text.empty()) text += ", ";
-        text += names[c].name + (x < 0 ? " -" : " +") + nearest_text(std::abs(x));
+        text += names[c].name + (x < 0 ? " -" : " +") + brief(std::abs(x));
     }
     return text;
-}
-
-} // namespace detail
-
-SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found,
-                                                          std::size_t directions) {
-    auto const count = [](std::size_t n, std::string const& what) {
-        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-    };
-    std::vector<std::string> lines;
-    auto const n = found.unknowns.size();
-    std::string ranks =
-        count(found.outputs, "measured output") + " and " + count(n, "unknown") + ": rank ";
-    if (found.least_rank == found.most_rank) {
-        ranks += std::to_string(found.least_rank) + ", proved";
-    } else {
-        ranks += "at least " + std::to_string(found.least_rank) + " and at most " +
-                 std::to_string(found.most_rank) + ", proved; " +
-                 std::to_string(found.approximate_rank) + " in floating point";
-    }
-    if (found.missing > 0) ranks += "; " + count(found.missing, "output") + " not reached";
-    lines.push_back(std::move(ranks));
-    for (auto const& m : found.free) {
-        auto const moving =
-            std::count_if(m.weights.begin(), m.weights.end(), [](int w) { return w != 0; });
-        lines.push_back("free: " + detail::motion_text(m, found.unknowns) +
-                        (moving == 1 ? ": it does not act on the outputs" : "") +
-                        (m.proved ? " (by the equations)" : " (numerically, not proved)"));
-    }
-    for (auto const& m : found.nearly_free) {
-        lines.push_back("hardly noticed: " + detail::motion_text(m, found.unknowns) +
-                        " across the prior moves no output by more than " +
-                        rounded_text(m.noticed, rounding::up, {.significant = 2}) +
-                        " of its error bound (to first order)");
-    }
-    if (!found.fixed.empty())
-        lines.push_back("these act through " + joined(found.fixed, ", ", &fixed_formula::formula) +
-                        " alone");
-    if (!found.nearly_fixed.empty())
-        lines.push_back("these act nearly through " +
-                        joined(found.nearly_fixed, ", ", &fixed_formula::formula) + " alone");
-    std::size_t const told = std::min(found.approximate_rank, found.directions.size());
-    for (std::size_t k = told - std::min(told, directions); k < told; ++k) {
-        auto const& d = found.directions[k];
-        lines.push_back("along " + detail::direction_text(d, found.unknowns) +
-                        " of the prior's width an output moves by " +
-                        detail::nearest_text(d.noticed) + " error bounds (to first order)");
-    }
-    return lines;
-}
-
-namespace detail {
-
-inline std::string brief(double x, rounding way = rounding::nearest) {
-    return rounded_text(x, way, {.significant = 2});
 }
 
 inline std::string name_of(run_reach::cause const& c) {
@@ -212,42 +157,6 @@ inline std::string proved_inside_text(identification const& found) {
            "the parameters would";
 }
 
-} // namespace detail
-
-SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach,
-                                                bool ended_by_itself) {
-    constexpr std::size_t most = 6;
-    std::vector<std::string> result;
-    for (auto const& r : reach) {
-        if (&r - reach.data() == most && reach.size() > most) {
-            result.push_back(count_text(reach.size() - most) +
-                             " further scenarios: see \xE2\x80\x9Creach\xE2\x80\x9D in the "
-                             "result file");
-            break;
-        }
-        auto const words = detail::why_of(r, ended_by_itself);
-        if (!words.empty()) result.push_back(r.scenario + ": " + words);
-    }
-    return result;
-}
-
-SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
-                                                identification const& found) {
-    std::vector<std::string> result;
-    if (!found.excludes_little()) return result;
-    if (auto words = detail::proved_inside_text(found); !words.empty())
-        result.push_back(std::move(words));
-    if (found.reach.empty() && found.reason == stop_reason::time_budget &&
-        !problem.model.has_memory())
-        result.push_back("No time was left to see why: a larger budget may tell");
-    for (auto const& d : found.divisors) result.push_back(detail::divisor_text(d));
-    for (auto& words : reach_words(found.reach, is_complete(found.reason)))
-        result.push_back(std::move(words));
-    return result;
-}
-
-namespace detail {
-
 /// A share of the prior, widened a little where its bounds agree to many digits, so that it reads
 /// well; still an enclosure.
 inline range shown_share(interval const& volume) {
@@ -273,10 +182,9 @@ public:
         add_witness();
         for (std::size_t e = 0; e < problem_.experiments.size(); ++e)
             view_.scenarios.push_back(scenario(e));
-        add_marked();
+        add_warnings();
         add_meanings();
         add_pavings();
-        add_product_pavings();
         return std::move(view_);
     }
 
@@ -343,12 +251,10 @@ private:
             found_.seconds, found_.boxes, found_.integrations,
             std::string{to_string(found_.reason)} +
                 (found_.by_clock ? " by the clock: a faster machine may say more" : "")};
-        view_.tried = tried_words(found_.journal);
+        view_.tried = found_.journal;
         view_.statistics.why = reach_words(problem_, found_);
-        view_.version = "sivid " + std::string{version};
-        view_.date = options_.date;
-        view_.machine = options_.machine;
-        view_.command = options_.command;
+        view_.footer = {"sivid " + std::string{version}, options_.date, options_.machine,
+                        options_.command};
     }
 
     void add_parameters() {
@@ -381,28 +287,17 @@ private:
 
     /// In products where the search ran there.
     void add_inside_box() {
-        auto const* const products = found_.products ? &*found_.products : nullptr;
-        auto const* const box =
-            (products ? products->paving : found_.paving).largest(box_verdict::inside);
+        auto const p = found_.products ? paving_of_products() : paving_of_parameters();
+        auto const* const box = p.paving->largest(box_verdict::inside);
         if (box == nullptr) return;
         std::vector<std::string> sides;
         for (std::size_t k = 0; k < box->size(); ++k) {
             auto const range = inward_text((*box)[k]);
             if (!range) return;
-            auto const unit = unit_text(products ? unit_of_side(k) : unit_of(k));
-            sides.push_back((products ? name_of_side(k) : names()[k]) + " in " + *range +
-                            (unit.empty() ? "" : " " + unit));
+            auto const unit = unit_text(p.sides[k].unit);
+            sides.push_back(p.sides[k].label + " in " + *range + (unit.empty() ? "" : " " + unit));
         }
         view_.inside_box = enumeration(sides);
-    }
-    /// Of the products that the search ran in.
-    [[nodiscard]] std::string name_of_side(std::size_t k) const {
-        auto const& side = found_.products->map.sides()[k];
-        return side.product ? formula_text(side.product->formula) : names()[side.parameter];
-    }
-    [[nodiscard]] std::string unit_of_side(std::size_t k) const {
-        auto const& side = found_.products->map.sides()[k];
-        return side.product ? side.product->unit : unit_of(side.parameter);
     }
 
     void add_witness() {
@@ -422,17 +317,7 @@ private:
         view_.witness = std::move(w);
     }
 
-    void add_marked() {
-        for (scenario_view const& s : view_.scenarios) {
-            for (channel_series const& c : s.channels) {
-                for (measured_sample const& m : c.measured) {
-                    if (m.state != sample_state::regular) {
-                        view_.outliers.push_back(
-                            {s.name, c.name, m.time, m.state == sample_state::forced_outlier});
-                    }
-                }
-            }
-        }
+    void add_warnings() {
         for (std::size_t e = 0; motion_ != nullptr && e < problem_.experiments.size(); ++e) {
             if (auto const& why = motion_->tubes[e]->failure()) {
                 view_.warnings.push_back(
@@ -467,30 +352,42 @@ private:
         }
     }
 
-    /// Those of parameters that are known only through a combination come first.
-    void add_pavings() {
+    [[nodiscard]] named_paving paving_of_parameters() const {
         named_paving p{.paving = &found_.paving};
         for (std::size_t j = 0; j < names().size(); ++j) {
             p.sides.push_back({names()[j], unit_of(j), problem_.prior[j]});
-            p.hull.push_back(view_.parameters[j].hull);
+            p.hull.push_back(found_.hull[j]);
         }
         if (found_.witness) p.witness = found_.witness->parameters;
-        view_.pavings = projections(p, found_.entangled, most_pavings);
+        return p;
     }
 
-    void add_product_pavings() {
-        if (!found_.products) return;
+    /// In the coordinates that the search ran in.
+    [[nodiscard]] named_paving paving_of_products() const {
         auto const& map = found_.products->map;
         named_paving p{.paving = &found_.products->paving};
         auto const hull = map.forward(found_.hull);
-        std::vector<std::size_t> products;
         for (std::size_t k = 0; k < map.sides().size(); ++k) {
-            p.sides.push_back({name_of_side(k), unit_of_side(k), map.problem().prior[k]});
+            auto const& side = map.sides()[k];
+            range const prior = map.problem().prior[k];
+            p.sides.push_back(
+                side.product ? axis{formula_text(side.product->formula), side.product->unit, prior}
+                             : axis{names()[side.parameter], unit_of(side.parameter), prior});
             p.hull.push_back(hull[k]);
-            if (map.sides()[k].product) products.push_back(k);
         }
         if (found_.witness) p.witness = mid(map.forward(point_box(found_.witness->parameters)));
-        view_.product_pavings = projections(p, products, most_pavings);
+        return p;
+    }
+
+    /// Those of products, and of parameters that are known only through one, come first.
+    void add_pavings() {
+        view_.pavings = projections(paving_of_parameters(), found_.entangled, most_pavings);
+        if (!found_.products) return;
+        std::vector<std::size_t> products;
+        auto const& sides = found_.products->map.sides();
+        for (std::size_t k = 0; k < sides.size(); ++k)
+            if (sides[k].product) products.push_back(k);
+        view_.product_pavings = projections(paving_of_products(), products, most_pavings);
     }
 
     /// What the page shows of one experiment: its measurements, the tube, the motion in the plane.
@@ -609,6 +506,84 @@ private:
 };
 
 } // namespace detail
+
+SIVID_DECL std::vector<std::string> identifiability_words(identifiability const& found) {
+    auto const count = [](std::size_t n, std::string const& what) {
+        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    };
+    std::vector<std::string> lines;
+    auto const n = found.unknowns.size();
+    std::string ranks =
+        count(found.outputs, "measured output") + " and " + count(n, "unknown") + ": rank ";
+    if (found.least_rank == found.most_rank) {
+        ranks += std::to_string(found.least_rank) + ", proved";
+    } else {
+        ranks += "at least " + std::to_string(found.least_rank) + " and at most " +
+                 std::to_string(found.most_rank) + ", proved; " +
+                 std::to_string(found.approximate_rank) + " in floating point";
+    }
+    if (found.missing > 0) ranks += "; " + count(found.missing, "output") + " not reached";
+    lines.push_back(std::move(ranks));
+    for (auto const& m : found.free) {
+        auto const moving =
+            std::count_if(m.weights.begin(), m.weights.end(), [](int w) { return w != 0; });
+        lines.push_back("free: " + detail::motion_text(m, found.unknowns) +
+                        (moving == 1 ? ": it does not act on the outputs" : "") +
+                        (m.proved ? " (by the equations)" : " (numerically, not proved)"));
+    }
+    for (auto const& m : found.nearly_free) {
+        lines.push_back("hardly noticed: " + detail::motion_text(m, found.unknowns) +
+                        " across the prior moves no output by more than " +
+                        rounded_text(m.noticed, rounding::up, {.significant = 2}) +
+                        " of its error bound (to first order)");
+    }
+    if (!found.fixed.empty())
+        lines.push_back("these act through " + joined(found.fixed, ", ", &fixed_formula::formula) +
+                        " alone");
+    if (!found.nearly_fixed.empty())
+        lines.push_back("these act nearly through " +
+                        joined(found.nearly_fixed, ", ", &fixed_formula::formula) + " alone");
+    std::size_t const told = std::min(found.approximate_rank, found.directions.size());
+    for (std::size_t k = told - std::min<std::size_t>(told, 3); k < told; ++k) {
+        auto const& d = found.directions[k];
+        lines.push_back("along " + detail::direction_text(d, found.unknowns) +
+                        " of the prior's width an output moves by " + detail::brief(d.noticed) +
+                        " error bounds (to first order)");
+    }
+    return lines;
+}
+
+SIVID_DECL std::vector<std::string> reach_words(std::vector<run_reach> const& reach,
+                                                bool ended_by_itself) {
+    constexpr std::size_t most = 6;
+    std::vector<std::string> result;
+    for (auto const& r : reach) {
+        if (&r - reach.data() == most && reach.size() > most) {
+            result.push_back(count_text(reach.size() - most) +
+                             " further scenarios: see \xE2\x80\x9Creach\xE2\x80\x9D in the "
+                             "result file");
+            break;
+        }
+        auto const words = detail::why_of(r, ended_by_itself);
+        if (!words.empty()) result.push_back(r.scenario + ": " + words);
+    }
+    return result;
+}
+
+SIVID_DECL std::vector<std::string> reach_words(identification_problem const& problem,
+                                                identification const& found) {
+    std::vector<std::string> result;
+    if (!found.excludes_little()) return result;
+    if (auto words = detail::proved_inside_text(found); !words.empty())
+        result.push_back(std::move(words));
+    if (found.reach.empty() && found.reason == stop_reason::time_budget &&
+        !problem.model.has_memory())
+        result.push_back("No time was left to see why: a larger budget may tell");
+    for (auto const& d : found.divisors) result.push_back(detail::divisor_text(d));
+    for (auto& words : reach_words(found.reach, is_complete(found.reason)))
+        result.push_back(std::move(words));
+    return result;
+}
 
 SIVID_DECL identification_view view_of(identification_problem const& problem,
                                        identification const& found, explaining_motion const* motion,
