@@ -11,8 +11,6 @@
 #include <sivid/model/bound_model.hpp>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -253,18 +251,4 @@ TEST_CASE("states that lags add start where the input does") {
     CHECK(start.upper() < 0.2500001);
     lags.require_valid();
     behind.require_valid();
-}
-
-TEST_CASE("the effect that docs/diagnosis.md shows is the catalogue's") {
-    auto const text = [](std::string const& file) {
-        std::ifstream in(std::string{SIVID_SOURCE_DIR} + file);
-        return std::string{std::istreambuf_iterator<char>(in), {}};
-    };
-    auto const page = text("/docs/diagnosis.md");
-    auto const begin = page.find("```cpp\n");
-    REQUIRE(begin != std::string::npos);
-    auto const end = page.find("```", begin + 7);
-    auto const shown = page.substr(begin + 7, end - begin - 7);
-    CHECK(shown.size() > 200);
-    CHECK_THAT(text("/examples/hovercraft/effects.hpp"), ContainsSubstring(shown));
 }
