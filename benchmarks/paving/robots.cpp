@@ -110,11 +110,12 @@ void show_sides(box const& left, box const& prior) {
 void show_equations(machine const& m) {
     auto const problem = record_of(m.make(), m.how);
     auto const begin = std::chrono::steady_clock::now();
+    work_watch const counted;
     auto const left = contract_by_relations(problem);
     double const seconds = seconds_since(begin);
     std::printf("%s, equations alone, %% of the prior:", m.how.what.c_str());
     show_sides(left, problem.prior);
-    std::printf(" (%.2f s)\n", seconds);
+    std::printf(" (%.2f s, counted %.2f times)\n", seconds, counted.spent() / seconds);
     std::fflush(stdout);
 }
 

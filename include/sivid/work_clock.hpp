@@ -13,7 +13,7 @@ namespace sivid {
 ///   The kernels that all work goes through tell what they did: series, programs, simulations,
 ///   linear programs. Tasks of an `executor` begin at the time of the caller, who goes on at the
 ///   sum of what they did; how many of them run at once does not show.
-/// @guarantee  none of a time: prices are those of `benchmarks/paving/work_clock`, which prints
+/// @guarantee  none of a time: prices are rough, `benchmarks/paving/robots` prints
 ///   counted over measured seconds
 /// @cost  an addition
 class work_clock {

@@ -228,7 +228,7 @@ private:
                                     time_cell const& cell, leaf_ranges const& at,
                                     std::vector<cell_line> const& lines, graph_range const& natural,
                                     graph_range const& centred) const {
-        work_clock::count(8 * (lines.size() + 2), work_clock::interval);
+        work_clock::count(4 * (lines.size() + 2), work_clock::interval);
         auto const f = set.functions[j];
         bool smooth = set.continuous[j] && !natural.undefined(f);
         auto mean = centred.value(f);

@@ -142,7 +142,7 @@ private:
         for (std::size_t p = 0; p < parts.size(); ++p) {
             if (parts[p].q != q) continue;
             used = true;
-            work_clock::count(12 * phi.size(), work_clock::interval);
+            work_clock::count(2 * phi.size(), work_clock::interval);
             auto const weight = [&](std::size_t k) {
                 return traits::mul(traits::point(phi[k]),
                                    traits::point(functions_->factor(j, p, a + k)));
