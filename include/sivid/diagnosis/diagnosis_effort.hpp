@@ -19,8 +19,7 @@
 namespace sivid {
 
 /// What one step of a diagnosis may spend: boxes, and a share of the whole budget, which counts
-/// work
-/// (`work_limit`). Both end it at the same place on any machine.
+/// work (`work_limit`). Both end it at the same place on any machine.
 struct step_effort {
     std::size_t boxes = 0; ///< of parameters, each with all experiments
     double share = 0;      ///< of the budget of the whole diagnosis

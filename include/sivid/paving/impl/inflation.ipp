@@ -63,7 +63,10 @@ private:
         return map_ ? map_->problem() : *problem_;
     }
     void begin_search(identification_problem const& problem) {
-        if (search_) spent_ += search_->integrations() + search_->tested();
+        if (search_) {
+            integrated_ += search_->integrations();
+            tested_ += search_->tested();
+        }
         search_.emplace(problem, test_within_time());
         search_->policy().above = upper_;
         search_->policy().propose = [this](inflation_relaxation const& found, bool complete) {
@@ -111,7 +114,7 @@ private:
         work_limit const own(0.5 * within.seconds(), within);
         inquiry asked(with_bounds_grown(working(), level), limited(options_->test, own), {}, own);
         contract(options_->strategy, asked);
-        spent_ += asked.integrations();
+        integrated_ += asked.integrations();
         if (asked.empty()) return std::nullopt;
         auto rest = working();
         rest.prior = asked.problem().prior;
@@ -127,8 +130,9 @@ private:
     }
     /// Proved.
     [[nodiscard]] double lower() const { return std::max(search_->lower(), refuted_); }
-    [[nodiscard]] std::size_t work() const {
-        return spent_ + search_->integrations() + search_->tested() + points_.integrations();
+    [[nodiscard]] std::size_t work() const { return tested_ + search_->tested() + integrations(); }
+    [[nodiscard]] std::size_t integrations() const {
+        return integrated_ + search_->integrations() + points_.integrations();
     }
     [[nodiscard]] bool within_time() const {
         return limit_() && (!options_->keep_going || options_->keep_going());
@@ -220,8 +224,8 @@ private:
         for (auto const& b : search_->cover()) around = around.size() == 0 ? b : hull(around, b);
         if (around.size() == 0) around = map_ ? map_->forward(problem_->prior) : problem_->prior;
         result.hull = map_ ? map_->backward(problem_->prior, around) : around;
-        result.boxes = search_->tested();
-        result.integrations = spent_ + search_->integrations() + points_.integrations();
+        result.boxes = tested_ + search_->tested();
+        result.integrations = integrations();
         result.seconds = clock_.spent();
         return result;
     }
@@ -236,9 +240,9 @@ private:
     std::optional<inflation_search> search_;
     approximate_fitter fit_;
     double upper_ = detail::infinity;
-    std::optional<double> asked_at_; ///< `upper_`, when contractors were asked
-    double refuted_ = 0;             ///< level at which contractors left nothing
-    std::size_t spent_ = 0;          ///< by contractors, and searches that are over
+    std::optional<double> asked_at_;          ///< `upper_`, when contractors were asked
+    double refuted_ = 0;                      ///< level at which contractors left nothing
+    std::size_t integrated_ = 0, tested_ = 0; ///< by contractors, and searches that are over
     std::size_t descents_ = 0;
     std::size_t most_work_ = std::max(options_->boxes, options_->further_boxes);
     std::optional<inflation_relaxation> promise_;

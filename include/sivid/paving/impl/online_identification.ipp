@@ -177,7 +177,7 @@ private:
     void ask_contractors(work_limit const& limit) {
         bool const blind = std::any_of(paving_->boxes().begin(), paving_->boxes().end(),
                                        [](auto const& b) { return b.blind; });
-        if (!blind || 2 * samples_ < 3 * asked_at_ || !limit()) return;
+        if (!blind || samples_ == 0 || 2 * samples_ < 3 * asked_at_ || !limit()) return;
         asked_at_ = samples_;
         auto left = posed();
         left.prior = paving_->hull();
