@@ -9,11 +9,13 @@
 namespace sivid {
 
 /// How an experiment is run over a box of parameters and starts: coarser steps than those of
-/// `enclosure_options`, for one of many.
+/// `enclosure_options`, for one of many; finer ones where losses grow: an arm whose torque is
+/// recorded loses a fifth less of its hulls at 1e-8 than at 1e-7, in the same time
+/// (`benchmarks/paving/robots`).
 struct run_options : enclosure_options {
     run_options()
         : enclosure_options{
-              .order = 12, .tolerance = 1e-7, .relative_tolerance = 1e-4, .minimum_step = 1e-4} {}
+              .order = 12, .tolerance = 1e-8, .relative_tolerance = 1e-4, .minimum_step = 1e-4} {}
     explicit run_options(enclosure_options const& steps) : enclosure_options(steps) {}
 
     carried_set set = carried_set::taylor_model;

@@ -345,7 +345,7 @@ private:
         for (std::size_t n = first; n < last; ++n) {
             auto const& i = program_->varying()[n];
             auto& result = at(i.target, k);
-            work += model_detail::work_of(result) * static_cast<double>(k + 1);
+            work += model_detail::work_of(result) * products(i, k);
             switch (i.op) {
             case operation::time:
                 result = k == 0 ? time_ : k == 1 ? time_slope_ : arithmetic::point(0.0);
@@ -379,6 +379,25 @@ private:
             }
         }
         work_clock::count(1, work);
+    }
+
+    /// Products that coefficient k takes, for the `work_clock`.
+    [[nodiscard]] double products(instruction const& i, std::size_t k) const {
+        constexpr double addition = 0.2; // of a product
+        auto const convolution = static_cast<double>(k + 1);
+        if (is_leaf(i.op)) return addition;
+        if (!i.is_sum()) {
+            bool const one = (i.op == operation::mul && !(i.a_varies && i.b_varies)) ||
+                             (i.op == operation::div && !i.b_varies);
+            return one ? 1 : convolution;
+        }
+        double result = 0;
+        auto const* const terms = program_->terms(i);
+        for (std::size_t n = 0; n < i.last_term - i.first_term; ++n) {
+            auto const& t = terms[n];
+            result += !t.product ? addition : t.a_varies && t.b_varies ? convolution : 1;
+        }
+        return result;
     }
 
     T& at(std::size_t slot, std::size_t k) {
