@@ -124,6 +124,7 @@
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/enclosure/uncertain_input.hpp>
 #include <sivid/paving/bisection_test.hpp>
+#include <sivid/paving/bound_influence.hpp>
 #include <sivid/paving/complete.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/curve/curve_shapes.hpp>

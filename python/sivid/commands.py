@@ -39,7 +39,7 @@ def identify(
 
     ``effects``: of the model's catalogue, joined to it (``--with``). ``budget``: seconds. Further options:
     ``accuracy``, ``boxes``, ``outliers``, ``threshold``, ``threads``, ``memory``, ``checkpoint``, ``resume``,
-    ``verdict_only``, ``identifiability``, ``method``, ``set``, ``algorithm``, ``batches``.
+    ``verdict_only``, ``by_bounds``, ``identifiability``, ``method``, ``set``, ``algorithm``, ``batches``.
 
     ``out``: a folder for the files of the result, as the program writes them; without it they last as long as the
     result. ``progress``: a function of one line of text, False for none; without it a line on a terminal or in a

@@ -244,6 +244,25 @@ TEST_CASE("a comparison shows Algorithm 1 beside") {
     CHECK_THAT(text, ContainsSubstring("Algorithm 1 of the report"));
 }
 
+TEST_CASE("what other error bounds would leave is said and written") {
+    temporary_folder const folder;
+    auto const out = folder.path() / "out";
+    auto const asked = [&](std::vector<std::string> further) {
+        further.insert(further.begin(),
+                       {"identify", h3, "--out", out.string(), "--quiet", "--budget", "20"});
+        return run(further);
+    };
+    auto const r = asked({"--by-bounds"});
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("all channels x 0.5: "));
+    CHECK_THAT(r.out, ContainsSubstring("r x 2: "));
+    std::ifstream table{out / "bounds.csv"};
+    std::string const text{std::istreambuf_iterator<char>{table}, {}};
+    CHECK_THAT(text, ContainsSubstring("\nu,0.5,"));
+    CHECK(asked({}).code == 0);
+    CHECK_FALSE(fs::exists(out / "bounds.csv")); // an earlier result's
+}
+
 TEST_CASE("bad input or usage: one message, exit code 2, nothing written") {
     temporary_folder const folder;
     auto const data = folder.path() / "data";

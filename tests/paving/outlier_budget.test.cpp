@@ -4,6 +4,7 @@
 
 #include "paving/plain_problem.hpp"
 #include "support/catch.hpp"
+#include "support/epidemic.hpp"
 #include "support/problems.hpp"
 
 #include <sivid/paving/identify.hpp>
@@ -218,6 +219,21 @@ TEST_CASE("a search for outliers says why it ended before its count was exact") 
     CHECK(ended([](auto& o) { o.memory = 1; }) == stop_reason::memory_budget);
     CHECK(ended([](auto& o) { o.seconds = 0; }) == stop_reason::time_budget);
     CHECK(ended([](auto& o) { o.keep_going = [] { return false; }; }) == stop_reason::cancelled);
+}
+
+TEST_CASE("outliers are counted where runs over most of the prior end at once") {
+    auto problem = support::infection(1e6, 1);
+    for (std::size_t const k : {4u, 8u}) { // no rate explains either beside the others
+        auto& bound = problem.experiments[0].measurements[k].bound;
+        bound = interval(3 * bound.lower(), 3 * bound.upper());
+    }
+    auto const found = smallest_outlier_budget(problem, {.seconds = 60});
+    CHECK(found.total.least == 2);
+    CHECK(found.total.most == 2);
+    outlier_search_options alone;
+    alone.seconds = 5;
+    alone.strategy = {};
+    CHECK_FALSE(smallest_outlier_budget(problem, alone).total.exact());
 }
 
 TEST_CASE("a search for outliers that is told to stop says what is proved") {

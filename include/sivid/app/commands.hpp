@@ -66,6 +66,7 @@ struct identify_command : search_command {
     std::size_t threads = 1;               ///< 0: as many as the machine has
     bool compare = false;
     bool verdict_only = false; ///< stop once the verdict is proved
+    bool by_bounds = false;    ///< what half and twice the error bounds would leave
     std::size_t batches = 4;   ///< sets of boxes learnt about at a time; the result depends on it
 };
 [[nodiscard]] SIVID_DECL int run(robot const& r, identify_command const& c);

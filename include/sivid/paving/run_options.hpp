@@ -9,8 +9,8 @@
 namespace sivid {
 
 /// How an experiment is run over a box of parameters and starts: coarser steps than those of
-/// `enclosure_options`, for one of many; finer ones where losses grow: an arm whose torque is
-/// recorded loses a fifth less of its hulls at 1e-8 than at 1e-7, in the same time
+/// `enclosure_options`, for one of many. Where losses grow they decide: the hulls of an arm whose
+/// torque is recorded are a third narrower with 1e-8 than with 1e-7, in the same time
 /// (`benchmarks/paving/robots`).
 struct run_options : enclosure_options {
     run_options()

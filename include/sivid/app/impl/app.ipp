@@ -446,6 +446,9 @@ private:
                     "spend 40 % of the budget on the report's Algorithm 1 and show both");
         s->add_flag("--verdict-only", c.verdict_only,
                     "stop as soon as it is proved whether any parameter explains the data");
+        s->add_flag("--by-bounds", c.by_bounds,
+                    "spend 60 % of the budget on how wide the ranges would be with half and with "
+                    "twice the error bounds of each channel: which of them decides");
         add_effort(*s, c);
     }
     static void add_effort(CLI::App& s, identify_command& c) {

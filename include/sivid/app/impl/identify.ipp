@@ -5,6 +5,7 @@
 #include <sivid/app/commands.hpp>
 
 #include <sivid/app/console.hpp>
+#include <sivid/app/detail/bounds_output.hpp>
 #include <sivid/app/detail/identification_output.hpp>
 #include <sivid/app/detail/posed_problem.hpp>
 #include <sivid/app/program.hpp>
@@ -16,6 +17,7 @@
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/result/problem_digest.hpp>
+#include <sivid/paving/bound_influence.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/online_identification.hpp>
 #include <sivid/paving/outlier_budget.hpp>
@@ -143,8 +145,8 @@ inline int help([[maybe_unused]] identify_command const& c,
 /// Whether something is asked for that needs a search of boxes.
 inline bool asks_for_more(identify_command const& c) {
     return c.compare || c.verdict_only || c.checkpoint || c.resume || c.fewest_outliers ||
-           c.identifiability || several(c) || c.algorithm != "contracting" || !is_usual(c.how) ||
-           c.accuracy || c.memory;
+           c.identifiability || c.by_bounds || several(c) || c.algorithm != "contracting" ||
+           !is_usual(c.how) || c.accuracy || c.memory;
 }
 /// Slice by slice.
 inline identification remembered(remembering_problem const& p, identify_options const& options) {
@@ -203,6 +205,7 @@ public:
         output.draws_motion = !remembering_;
         bool const whole = output.write();
         output.print();
+        weigh_bounds();
         std::cout << shared;
         checkpoint.finish(found.reason);
         return whole ? exit_code_of(found.verdict) : static_cast<int>(bad_input);
@@ -218,7 +221,7 @@ private:
         if (c.boxes) search.boxes = *c.boxes;
         if (c.verdict_only) search.sufficient_ratio = 1e-300; // any inside box will do
         if (c.algorithm != "contracting") options_ = by_bisection(std::move(options_));
-        search.seconds = c.compare ? 0.6 * budget_ : budget_;
+        search.seconds = (c.compare ? 0.6 : c.by_bounds ? 0.4 : 1.0) * budget_;
         search.keep_going = wanted;
         search.progress = [this](paving_progress const& p) {
             progress_.show(paving_words(p));
@@ -297,6 +300,22 @@ private:
         output.baseline = identify(without_outliers(task_.problem), other);
         name_reason(*output.baseline);
         progress_.finish();
+    }
+
+    /// What other error bounds would leave: in lines, and in bounds.csv.
+    void weigh_bounds() {
+        std::error_code none;
+        std::filesystem::remove(command_.out / "bounds.csv", none); // of an earlier result
+        if (!command_.by_bounds || interrupted()) return;
+        auto how = options_;
+        how.search.seconds = limit_.seconds();
+        how.checkpoint = nullptr;
+        how.resume = nullptr;
+        progress_.note("half and twice the error bounds");
+        auto const lines = influence_of_bounds(task_.problem, {0.5, 2}, how);
+        progress_.finish();
+        write_durably(command_.out / "bounds.csv", bounds_csv(task_.problem, lines));
+        std::cout << bounds_text(task_.problem, lines);
     }
 
     identify_command const& command_;

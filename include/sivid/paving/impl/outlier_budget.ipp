@@ -13,6 +13,8 @@
 #include <sivid/paving/outliers/detail/outlier_count.hpp>
 #include <sivid/paving/products/dependence.hpp>
 #include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/strategy/inquiry.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
@@ -63,6 +65,11 @@ public:
             if (guess.inflation <= 1) break;
         }
         if (witness_) decrease();
+    }
+    /// Fits in what is left of the problem for q outliers.
+    void search_within(identification_problem rest, std::size_t q) {
+        for (auto& e : rest.experiments) e.outliers = std::min(q, e.measurements.size() / 2);
+        if (propose(approximate_fitter(rest, keep_going_)())) decrease();
     }
     /// Tries a parameter that may do with fewer than are known to suffice; with a fit from there,
     /// too, if the first does not suffice.
@@ -121,21 +128,62 @@ private:
     std::optional<verified_witness> witness_;
 };
 
+/// What contractors leave of the prior and of starts for those that violate fewer than `most`.
+/// @returns whether there may be any
+inline bool leave_fewer(identification_problem& problem, std::size_t most,
+                        outlier_search_options const& options, smallest_budget& spent) {
+    auto posed = problem;
+    for (auto& e : posed.experiments) e.outliers = std::min(most - 1, e.measurements.size());
+    work_limit const own(0.2 * options.seconds, options.keep_going);
+    inquiry asked(std::move(posed), limited(options.test, own), {}, own);
+    contract(options.strategy, asked);
+    spent.integrations += asked.integrations();
+    if (asked.empty()) return false;
+    problem.prior = asked.problem().prior;
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e)
+        problem.experiments[e].initial = asked.problem().experiments[e].initial;
+    return true;
+}
+
+/// Where no fit has found parameters: what contractors leave for no outlier, for one, for two, ...
+/// is searched for some. @returns so many outliers are needed at the least
+inline std::size_t first_level_left(identification_problem const& problem, few_violations& few,
+                                    outlier_search_options const& options, smallest_budget& spent) {
+    std::size_t least = 0;
+    auto const most = few.total();
+    for (std::size_t q = 0; q < most && !few.witness() && options.keep_going(); ++q) {
+        auto rest = problem;
+        if (!leave_fewer(rest, q + 1, options, spent))
+            least = q + 1;
+        else if (relative_volume(rest.prior, problem.prior).upper() < 1)
+            few.search_within(std::move(rest), q);
+        else
+            break; // nothing is known of so many, nor of more
+    }
+    return least;
+}
+
 /// Bounds from below what `few` bounds from above.
-inline proved_count least_violations(identification_problem const& problem, few_violations& few,
+inline proved_count least_violations(identification_problem problem, few_violations& few,
                                      std::vector<std::size_t> const& least,
                                      outlier_search_options const& options,
                                      smallest_budget& spent) {
+    auto const refuted = first_level_left(problem, few, options, spent);
+    if (few.total() > 0 && !leave_fewer(problem, few.total(), options, spent)) {
+        spent.reason = stop_reason::decided;
+        return {few.total(), few.total()};
+    }
     auto const map = reduction::find(problem, dependence_of(problem));
     outlier_count_search search(map ? map->problem() : problem, least, options);
     std::size_t attempts = 0;
-    auto const bound = search(few.total(), [&](std::vector<double> const& middle) {
+    auto const found = search(few.total(), [&](std::vector<double> const& middle) {
         if (++attempts <= 200) {
             few.search_from(map ? map->approximate_preimage(problem.prior, middle) : middle,
                             attempts <= 12);
         }
         return few.total();
     });
+    auto const bound = std::max(found, refuted);
     spent.boxes += search.boxes();
     spent.integrations += search.integrations();
     spent.reason = bound < few.total() ? search.reason() : stop_reason::decided;

@@ -3,6 +3,7 @@
 #define SIVID_PAVING_OUTLIERS_OUTLIER_SEARCH_OPTIONS_HPP
 
 #include <sivid/paving/judge/feasibility_test_options.hpp>
+#include <sivid/paving/strategy/strategy.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -17,6 +18,8 @@ struct outlier_search_options {
     std::size_t memory = std::numeric_limits<std::size_t>::max(); ///< bytes, see `used_up`
     /// Asked by any thread; false ends the search with what is proved until then. It stays false.
     std::function<bool()> keep_going = nullptr;
+    /// Asked what is left for parameters that violate fewer measurements than are known to do.
+    sivid::strategy strategy = default_strategy();
 };
 
 } // namespace sivid
