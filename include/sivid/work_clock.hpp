@@ -46,10 +46,11 @@ private:
     double begin_ = work_clock::now();
 };
 
-/// Work that is not counted where it is done, because it is done ahead of its turn or again.
+/// Work that is not counted where it is done, because it is done ahead of its turn or again. It is
+/// far before the end of all budgets meanwhile: none may cut short what was done whole before.
 class uncounted {
 public:
-    uncounted() = default;
+    uncounted() { work_clock::set(begin_ - 0x1p20); }
     ~uncounted() { work_clock::set(begin_); }
     uncounted(uncounted const&) = delete;
     uncounted& operator=(uncounted const&) = delete;

@@ -70,17 +70,26 @@ TEST_CASE("a budget of work ends a search at the same box, with any threads and 
         };
         check_same(result_of(identify(problem(), options)), once);
     }
-    SECTION("resumed from a checkpoint of a smaller budget") {
-        std::shared_ptr<identification_state const> state;
-        auto first = budget(0.15);
-        first.checkpoint = [&state](identification_state const& now) {
-            state = std::make_shared<identification_state const>(now);
-        };
-        (void)identify(problem(), first);
-        REQUIRE(state);
-        auto second = budget(0.3);
-        second.resume = state;
-        check_same(result_of(identify(problem(), second)), once);
+}
+
+TEST_CASE("a search resumed from a smaller budget ends at the same box, with the same count") {
+    for (double const all : {0.1, 0.15, 0.2, 0.25, 0.31, 0.4}) {
+        auto const once = result_of(identify(problem(), budget(all)));
+        for (double const share : {0.5, 0.7}) {
+            CAPTURE(all, share);
+            std::shared_ptr<identification_state const> state;
+            auto first = budget(share * all);
+            first.checkpoint = [&state](identification_state const& now) {
+                state = std::make_shared<identification_state const>(now);
+            };
+            (void)identify(problem(), first);
+            REQUIRE(state);
+            auto second = budget(all);
+            second.resume = state;
+            auto const resumed = result_of(identify(problem(), second));
+            check_same(resumed, once);
+            CHECK_THAT(resumed.work, Catch::Matchers::WithinRel(once.work, 1e-9));
+        }
     }
 }
 

@@ -206,6 +206,7 @@ private:
             }
         } else {
             in_parallel(items.size(), [&](std::size_t k) {
+                work_clock::set(0); // where all digits count, whenever it is done
                 work_watch const took;
                 auto says = test_->judge(*questions[k].set, questions[k].known);
                 says.work = took.spent();

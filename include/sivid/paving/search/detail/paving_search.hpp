@@ -101,33 +101,9 @@ public:
     /// Takes the next box, or the next boxes to learn about, and settles what is found. A test that
     /// was interrupted meanwhile settles nothing: then all is as it was before the step.
     void step() {
-        auto const before = waiting_.now();
         work_watch const took;
-        if constexpr (in_batches) {
-            auto next = batches_.take();
-            if (cut_short()) {
-                waiting_.back_to(before, {std::move(next)});
-            } else if (next.load.judged->blind) {
-                learn(before, std::move(next));
-            } else {
-                auto const judged = std::move(next.load.judged);
-                work_clock::advance(judged->work);
-                auto known = judged->knowledge ? std::move(next.load.known) : nullptr;
-                ++tested_;
-                settle(std::move(next), *judged, std::move(known));
-            }
-        } else {
-            auto next = waiting_.pop();
-            auto const known = next.load.known;
-            auto found = ask(next.set, known);
-            if (cut_short()) {
-                waiting_.back_to(before, {std::move(next)});
-                return;
-            }
-            ++tested_;
-            settle(std::move(next), found, hand_on(found.knowledge, known));
-        }
-        if (!cut_short()) worked_ += took.spent();
+        if (!settle_next()) return;
+        worked_ += took.spent();
         if (waiting_.empty()) reopen();
     }
 
@@ -283,6 +259,34 @@ private:
         waiting_.push(std::move(high), high_volume, {std::move(known)});
     }
 
+    /// @returns false where all is as it was before
+    [[nodiscard]] bool settle_next() {
+        auto const before = waiting_.now();
+        if constexpr (in_batches) {
+            auto next = batches_.take();
+            if (cut_short()) {
+                waiting_.back_to(before, {std::move(next)});
+                return false;
+            }
+            if (next.load.judged->blind) return learn(before, std::move(next));
+            auto const judged = std::move(next.load.judged);
+            work_clock::advance(judged->work);
+            auto known = judged->knowledge ? std::move(next.load.known) : nullptr;
+            ++tested_;
+            settle(std::move(next), *judged, std::move(known));
+        } else {
+            auto next = waiting_.pop();
+            auto const known = next.load.known;
+            auto found = ask(next.set, known);
+            if (cut_short()) {
+                waiting_.back_to(before, {std::move(next)});
+                return false;
+            }
+            ++tested_;
+            settle(std::move(next), found, hand_on(found.knowledge, known));
+        }
+        return true;
+    }
     /// What a test found about a box goes into the paving, and its parts wait.
     void settle(item of, answer found, known_part known) {
         auto& x = of.set;
@@ -349,8 +353,8 @@ private:
         return true;
     }
 
-    /// Boxes that are blind too are learnt about together.
-    void learn(typename frontier::moment const& before, item first) {
+    /// Boxes that are blind too are learnt about together. @returns false where nothing was settled
+    [[nodiscard]] bool learn(typename frontier::moment const& before, item first) {
         auto [sets, moved] = batches_.gather(std::move(first), options_.batches);
         std::vector<item> taken;
         for (auto const& set : sets) taken.insert(taken.end(), set.begin(), set.end());
@@ -364,7 +368,7 @@ private:
         if (cut_short()) {
             waiting_.back_to(before, std::move(taken), moved);
             splits_ = splits;
-            return;
+            return false;
         }
         for (std::size_t k = 0; k < sets.size(); ++k) {
             for (std::size_t n = 0; n < sets[k].size(); ++n) {
@@ -379,6 +383,7 @@ private:
                 settle(std::move(sets[k][n]), std::move(says), std::move(known));
             }
         }
+        return true;
     }
 
     Test* test_;
