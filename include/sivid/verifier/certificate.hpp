@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_VERIFIER_CERTIFICATE_HPP
+#define SIVID_VERIFIER_CERTIFICATE_HPP
+
+#include <sivid/compiled.hpp>
+#include <sivid/io/dataset_value.hpp>
+#include <sivid/io/result/stored_identification.hpp>
+#include <sivid/model/problem.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sivid {
+
+/// What a certificate quotes beside the problem and its result.
+struct certificate_source {
+    std::filesystem::path folder; ///< of the data set
+    std::filesystem::path result; ///< result.json
+    std::string model_name;       ///< of the model's file
+    std::string model_text;       ///< for people to read; the equations stand in operations
+};
+
+struct certificate_limits {
+    double seconds = 20;
+    std::size_t boxes = 5000; ///< that are tried to exclude
+    /// How much wider than the result's hull the certified one is on each side, as a share of its
+    /// width: a simple checker follows no search up to the edge.
+    double margin = 0.04;
+    std::function<bool()> keep_going = nullptr; ///< once false, no further box is tried
+};
+
+/// A result with its data, model, assumptions and proofs in one text (sivid-certificate-1) that a
+/// program without sivid can check: examples/certificate/check_certificate.c.
+struct certificate {
+    std::string text;
+    std::vector<std::string> claimed;  ///< what the checker is to prove, in words
+    std::vector<std::string> unproved; ///< what the result says beyond that
+    std::size_t excluded = 0;          ///< boxes that cover what is claimed to be excluded
+    bool whole = false; ///< the verdict is claimed, and the hull where the result has one
+};
+
+/// Writes the certificate of a stored identification. Each claim was proved here by plain runs of
+/// first order, with measurement bounds 2 % wider than stated; where that fails within the limits
+/// it stands among `unproved` instead.
+/// @given  `require_same_problem`; the problem has the outlier budgets of the result
+/// @throws std::invalid_argument  naming what no certificate can hold: delays, plays, rate limits,
+///         inputs with error bounds or given by formulas, starts that follow parameters, implicit
+///         equations, kinks (abs, sign, min, max), atan and log, tables in other units than the
+///         model's, more than 12 states and parameters
+/// @throws input_error  where data or result are not those of `stored`
+/// @cost  a validated run for each box that is tried
+[[nodiscard]] SIVID_DECL certificate make_certificate(identification_problem const& problem,
+                                                      dataset const& data,
+                                                      stored_identification const& stored,
+                                                      certificate_source const& source,
+                                                      certificate_limits const& limits = {});
+
+} // namespace sivid
+
+#ifndef SIVID_COMPILED
+#include <sivid/verifier/impl/certificate.ipp>
+#endif
+
+#endif

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_VERIFIER_PROOF_DETAIL_CERTIFICATE_COVER_HPP
+#define SIVID_VERIFIER_PROOF_DETAIL_CERTIFICATE_COVER_HPP
+
+#include <sivid/number/text/nearest_text.hpp>
+#include <sivid/paving/run/plain_run.hpp>
+#include <sivid/verifier/proof/detail/plain_proof.hpp>
+#include <sivid/work_limit.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid::io_detail {
+
+/// The prior as a tree of boxes that simple runs exclude, and boxes that are kept: the text of a
+/// certificate's tree. Faces are doubles of few digits, so that their decimals are the faces.
+class certificate_cover {
+public:
+    /// Bounds of measurements are as much wider here, as a share of their widths: what the checker
+    /// may be weaker.
+    static constexpr double slack = 0.02;
+
+    certificate_cover(identification_problem const& problem, double seconds, std::size_t boxes,
+                      std::function<bool()> const& keep_going)
+        : problem_(&problem), limit_(seconds, keep_going), boxes_(boxes) {
+        for (auto e : problem.experiments) {
+            for (auto& m : e.measurements) {
+                double const by = 0.5 * slack * width(m.bound);
+                m.bound = interval_traits<interval>::add(m.bound, interval(-by, by));
+            }
+            runs_.push_back(std::make_unique<plain_run<interval>>(problem.model, problem.choice, e,
+                                                                  certificate_options()));
+        }
+    }
+
+    /// Excludes the prior, but for a box in it.
+    void around(box const& kept) { around(problem_->prior, kept, 0, false); }
+    /// Excludes the prior.
+    void all() { exclude(problem_->prior); }
+
+    [[nodiscard]] std::string const& text() const { return text_; }
+    [[nodiscard]] std::size_t excluded() const { return excluded_; }
+    /// The hull of what is kept; nothing where nothing is.
+    [[nodiscard]] std::optional<box> const& hull_of_kept() const { return kept_; }
+
+    /// A number of few digits in x, near its middle.
+    [[nodiscard]] static double face(interval const& x) {
+        return few_digits(x.lower(), x.upper(), mid(x), 0.3 * width(x));
+    }
+
+private:
+    void around(box const& x, box const& kept, std::size_t side, bool upper) {
+        if (side == x.size()) return keep(x);
+        auto const next = upper ? side + 1 : side;
+        double const at = upper ? kept[side].upper() : kept[side].lower();
+        if (!(x[side].lower() < at && at < x[side].upper())) return around(x, kept, next, !upper);
+        auto const [low, high] = split(x, side, at);
+        if (!upper) exclude(low);
+        around(upper ? low : high, kept, next, !upper);
+        if (upper) exclude(high);
+    }
+    std::pair<box, box> split(box const& x, std::size_t side, double at) {
+        text_ += "split\t" + std::to_string(side) + "\t" + nearest_text(at) + "\n";
+        return bisect(x, side, at);
+    }
+    void keep(box const& x) {
+        text_ += "keep\n";
+        kept_ = kept_ ? hull(*kept_, x) : x;
+    }
+    void exclude(box const& x) {
+        if (tried_++ >= boxes_ || !limit_()) return keep(x);
+        for (std::size_t k = 0; k < runs_.size(); ++k) {
+            auto const e = (last_ + k) % runs_.size(); // what refuted the last may refute this
+            if (!refutes(e, x)) continue;
+            text_ += "out\t" + std::to_string(e) + "\n";
+            ++excluded_;
+            last_ = e;
+            return;
+        }
+        auto const side = widest_side(x, problem_->prior, 1e-6);
+        if (!side) return keep(x);
+        double const at = face(x[*side]);
+        if (!(x[*side].lower() < at && at < x[*side].upper())) return keep(x);
+        auto const [low, high] = split(x, *side, at);
+        exclude(low);
+        exclude(high);
+    }
+    [[nodiscard]] bool refutes(std::size_t e, box const& x) {
+        auto const& own = problem_->experiments[e];
+        auto const known = (*runs_[e])(own.initial, x);
+        return decide(known, runs_[e]->samples(), x, own.outliers) == run_finding::refuted;
+    }
+
+    identification_problem const* problem_;
+    work_limit limit_;
+    std::size_t boxes_, tried_ = 0, excluded_ = 0, last_ = 0;
+    std::vector<std::unique_ptr<plain_run<interval>>> runs_;
+    std::string text_;
+    std::optional<box> kept_;
+};
+
+} // namespace sivid::io_detail
+
+#endif
