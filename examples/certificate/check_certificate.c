@@ -3,13 +3,11 @@
  * without sivid; its data have to be those of the folder. Exit codes: 0 all that is claimed is
  * proved here; 2 refused: damaged, malformed, other data; 3 something is not proved here.
  * Taken for granted: C99, doubles with + - * / as IEEE 754 says, rounded to nearest, subnormals
- * (tried at the start), a strtod that is off by less than a unit in the last place. Bounds are
- * moved outward. libm proves nothing: sqrt guesses, functions are series with remainders.
- * A motion x(t; q), q = starts and parameters, is enclosed by c + C (q - mid q) + r, step by step:
- * Taylor polynomial in mean value form, remainder over a box that Picard's operator maps into
- * itself. A box of q is excluded where more measurements than the allowed outliers miss their
- * bounds; if need be it is halved. The tree covers the prior whatever the file says: a node divides
- * a box, excludes it or keeps it. */
+ * (tried at the start), strtod off by less than a unit in the last place. Bounds move outward. Of
+ * libm sqrt guesses; functions are series with remainders. A motion x(t; q), q = starts and
+ * parameters, is enclosed by c + C (q - mid q) + r, step by step: Taylor polynomial in mean value
+ * form, remainder over a box that Picard's operator maps into itself. A box of q is excluded where
+ * more measurements than the allowed outliers miss their bounds, if need be halved. */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
@@ -248,11 +246,13 @@ static void term(int i, int k, const struct place *at) {
     EACH(d, dims + 1) y[d] = zero;
     if (n->op > SQR && !first) { /* k f_k = sum of j a_j f'_(k-j) */
         convolve(y, n->a, n->b, k, 1, 1);
-        EACH(d, dims + 1) y[d] = quotient(y[d], point(k));
-    } else switch (n->op) {
-    case INPUT: if (k < 2) y[0] = first ? at->u[n->a] : at->slope[n->a]; return;
-    case TIME: if (k < 2) y[0] = first ? at->t : point(1); return;
-    case LITERAL: if (first) y[0] = n->value; return;
+        for (d = 0; d <= dims; ++d) y[d] = quotient(y[d], point(k));
+        return;
+    }
+    switch (n->op) {
+    case INPUT: y[0] = first ? at->u[n->a] : k == 1 ? at->slope[n->a] : zero; return;
+    case TIME: y[0] = first ? at->t : k == 1 ? point(1) : zero; return;
+    case LITERAL: y[0] = first ? n->value : zero; return;
     case ADD: EACH(d, dims + 1) y[d] = add(a[d], b[d]); return;
     case SUB: EACH(d, dims + 1) y[d] = sub(a[d], b[d]); return;
     case MUL: convolve(y, n->a, n->b, k, 0, 0); return;
@@ -266,9 +266,9 @@ static void term(int i, int k, const struct place *at) {
     case SQRT: y[0] = root(a[0]), slope = quotient(point(0.5), y[0]); break;
     case SIN: y[0] = sine(a[0], 0), slope = sine(a[0], 1); break;
     case COS: y[0] = sine(a[0], 1), slope = sine(a[0], 2); break;
-    default: if (first) y[0] = at->q[n->a], y[1 + n->a] = point(1); return; /* state, parameter */
+    default: y[0] = first ? at->q[n->a] : zero, y[1 + n->a] = point(first); return; /* in q */
     }
-    if (first) EACH(d, dims) y[1 + d] = mul(slope, a[1 + d]);
+    EACH(d, dims) y[1 + d] = mul(slope, a[1 + d]);
 }
 static void series(const struct place *at, int order, int derivatives) {
     int i, k, d;
@@ -530,7 +530,7 @@ static void begin_experiment(char **f) {
 static void statement(const char *folder) {
     static const char forms[] = " title3 model3 file3 data3 state3 parameter5 input3 constant4 "
         "constant5 let4 let5 let6 rate4 output5 experiment6 begins4 begins5 witness3 hull4 assume2 "
-        "tried2 unproved2 verdict2 ";
+        "noted2 unproved2 verdict2 ";
     char form[40], **f = fields;
     int n = next_line(), i, key = *f[0];
     struct experiment *e = &experiments[experiment_count - (experiment_count > 0)];
@@ -560,7 +560,7 @@ static int told(int good, const char *what) {
     return printf("%s: %s\n", good ? "PROVED" : "NOT PROVED", what), good;
 }
 static int judged(const char *verdict) { /* whether all that is claimed is proved */
-    const char *needed = "tmfdsproeba";
+    const char *needed = "tmfdsproeban";
     int i, good = 1, has_tree = rest < end_of_file, point_ = seen['w'] > 0, hull_ = seen['h'] > 0;
     int none = has_tree && !hull_;
     int bad = strcmp(verdict, point_ ? "consistent" : none ? "inconsistent" : "undecided");

@@ -8,7 +8,6 @@
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -19,9 +18,9 @@
 
 namespace sivid::io_detail {
 
-/// Why a certificate cannot be made, and what to do.
-[[noreturn]] inline void not_certifiable(std::string const& what) {
-    throw std::invalid_argument("no certificate: " + what +
+/// Says why there is no certificate. @throws std::invalid_argument
+[[noreturn]] inline void not_certifiable(std::string const& why) {
+    throw std::invalid_argument("no certificate: " + why +
                                 "; `check` proves such a result by sivid itself");
 }
 /// A field of a line: never empty, without tabs and line ends.
@@ -31,143 +30,129 @@ namespace sivid::io_detail {
     return text.empty() ? "-" : text;
 }
 
-/// The equations of a model, one operation a line, as a certificate has them.
+/// The equations of a model as a certificate has them: one operation a line.
 class certificate_equations {
 public:
-    certificate_equations(recorded_model const& model, parameter_choice const& choice)
-        : model_(&model) {
-        auto const& about = model.about;
-        for (auto const& s : about.states) add_name(s.name);
-        for (auto const& u : about.inputs) add_name(u.name);
-        for (auto const& c : about.constants) add_name(c.name);
-        auto const in_force = followed(model, choice);
-        std::vector<node_id> roots = model.rate;
-        roots.insert(roots.end(), model.observe.begin(), model.observe.end());
-        std::set<std::size_t> follows;
-        for (auto const& d : in_force) {
+    certificate_equations(recorded_model const& m, parameter_choice const& choice) : g_(&m.g) {
+        auto const& about = m.about;
+        for (auto const& s : about.states) states_.push_back(own_name(s.name));
+        for (auto const& u : about.inputs) inputs_.push_back(own_name(u.name));
+        for (auto const& c : about.constants) constants_.push_back(own_name(c.name));
+        auto roots = m.rate;
+        roots.insert(roots.end(), m.observe.begin(), m.observe.end());
+        std::set<std::size_t> others; // unknown, or functions of constants
+        for (auto const& p : choice.unknown)
+            others.insert(index_of(about.constants, p, "constant"));
+        for (auto const& d : followed(m, choice)) {
             roots.push_back(d.value);
-            follows.insert(d.constant);
+            others.insert(d.constant);
         }
-        for (auto const k : leaves_of(model.g, roots, operation::constant))
-            if (!follows.contains(k)) add_constant(about.constants[k], choice);
-        for (auto const& d : in_force)
-            text_ += "let\t" + about.constants[d.constant].name + "\t=\t" + value(d.value) + "\n";
-        for (std::size_t i = 0; i < model.rate.size(); ++i) {
-            auto const of = value(model.rate[i]);
-            text_ += "rate\t" + about.states[i].name + "\t=\t" + of + "\n";
+        for (auto const k : leaves_of(m.g, roots, operation::constant)) {
+            auto const& c = about.constants[k];
+            auto const own = choice.fixed.find(c.name);
+            auto const known =
+                own == choice.fixed.end() ? c.nominal : literal{own->second, mid(own->second)};
+            if (others.contains(k)) continue;
+            text_ += "constant\t" + c.name + "\t" + certificate_field(c.unit) + "\t" +
+                     number(known) + "\n";
         }
-        for (std::size_t y = 0; y < model.observe.size(); ++y) {
-            auto const of = value(model.observe[y]);
-            text_ += "output\t" + certificate_field(about.channels[y].name) + "\t" +
-                     certificate_field(about.channels[y].unit) + "\t=\t" + of + "\n";
-        }
+        for (auto const& d : followed(m, choice)) define("let\t" + constants_[d.constant], d.value);
+        for (std::size_t i = 0; i < states_.size(); ++i) define("rate\t" + states_[i], m.rate[i]);
+        for (std::size_t y = 0; y < m.observe.size(); ++y)
+            define("output\t" + certificate_field(about.channels[y].name) + "\t" +
+                       certificate_field(about.channels[y].unit),
+                   m.observe[y]);
     }
     [[nodiscard]] std::string const& text() const { return text_; }
 
 private:
     static constexpr std::size_t most_lines = 200; ///< the checker's memory is fixed
 
-    void add_name(std::string const& name) {
-        bool const plain = !name.empty() && certificate_field(name) == name &&
+    std::string const& own_name(std::string const& name) {
+        bool const plain = !name.empty() && certificate_field(name) == name && name != "t" &&
                            std::string("0123456789.-%").find(name[0]) == std::string::npos;
-        if (!plain || name == "t" || !names_.insert(name).second)
-            not_certifiable("the name '" + name +
-                            "' of a state, input or constant stands twice "
-                            "or cannot be written");
-    }
-    void add_constant(model_description::constant const& c, parameter_choice const& choice) {
-        auto const& unknown = choice.unknown;
-        if (std::find(unknown.begin(), unknown.end(), c.name) != unknown.end()) return;
-        auto const fixed = choice.fixed.find(c.name);
-        auto const x = fixed == choice.fixed.end() ? c.nominal.enclosure : fixed->second;
-        double const nearest = fixed == choice.fixed.end() ? c.nominal.nearest : mid(x);
-        text_ += "constant\t" + c.name + "\t" + certificate_field(c.unit) + "\t" +
-                 (is_decimal(x, nearest) ? nearest_text(nearest) : ends(x)) + "\n";
-    }
-    /// Whether the checker's enclosure of the decimal, a double to both sides, holds all of it.
-    [[nodiscard]] static bool is_decimal(interval const& x, double nearest) {
-        return std::nextafter(nearest, -HUGE_VAL) <= x.lower() &&
-               x.upper() <= std::nextafter(nearest, HUGE_VAL);
-    }
-    [[nodiscard]] static std::string ends(interval const& x) {
-        return to_decimal_lower(x.lower()) + "\t" + to_decimal_upper(x.upper());
-    }
-
-    /// The name of a node, after the lines that it needs.
-    std::string value(node_id root) {
-        auto const needed = operands_of(model_->g, {root});
-        for (std::size_t k = 0; k < needed.size(); ++k) {
-            auto const i = static_cast<node_id>(k);
-            if (needed[k] && !named_.contains(i)) named_.emplace(i, leaf_or_line(i));
-        }
-        return named_.at(root);
-    }
-    std::string line(std::string const& operation) {
-        auto const name = "%" + std::to_string(++count_);
-        if (count_ > most_lines) not_certifiable("the equations are too long for the checker");
-        text_ += "let\t" + name + "\t=\t" + operation + "\n";
+        if (!plain || !names_.insert(name).second)
+            not_certifiable("the name '" + name + "' stands twice or cannot be written");
         return name;
     }
-    std::string leaf_or_line(node_id i) {
-        auto const& n = model_->g[i];
+    /// A decimal where the checker's enclosure of it, a double to both sides, holds all that may be
+    /// meant; else two.
+    [[nodiscard]] static std::string number(literal const& l) {
+        auto const& x = l.enclosure;
+        if (std::nextafter(l.nearest, -HUGE_VAL) <= x.lower() &&
+            x.upper() <= std::nextafter(l.nearest, HUGE_VAL))
+            return nearest_text(l.nearest);
+        return to_decimal_lower(x.lower()) + "\t" + to_decimal_upper(x.upper());
+    }
+    void define(std::string const& what, node_id root) {
+        auto const needed = operands_of(*g_, {root});
+        for (std::size_t k = 0; k < needed.size(); ++k) {
+            auto const i = static_cast<node_id>(k);
+            if (needed[k] && !named_.contains(i)) named_[i] = name_of((*g_)[i]);
+        }
+        text_ += what + "\t=\t" + named_[root] + "\n";
+    }
+    /// The name of a new line.
+    std::string line(std::string const& operation, std::string const& kind = "let\t%",
+                     std::string const& behind = "\t=\t") {
+        if (++count_ > most_lines) not_certifiable("the equations are too long for the checker");
+        text_ += kind + std::to_string(count_) + behind + operation + "\n";
+        return "%" + std::to_string(count_);
+    }
+    [[nodiscard]] std::string known(node_id i) const {
+        auto const found = named_.find(i);
+        return found == named_.end() ? std::string{} : found->second;
+    }
+    std::string name_of(node const& n) {
         auto const k = static_cast<std::size_t>(n.index);
+        auto const a = known(n.a), b = known(n.b);
         switch (n.op) {
-        case operation::literal:
-            return literal_text(model_->g.value(n));
+        case operation::literal: {
+            auto const text = number(g_->value(n));
+            bool const one = text.find('\t') == std::string::npos;
+            return one ? text : line(text, "constant\t%", "\t-\t");
+        }
         case operation::time:
             return "t";
         case operation::state:
-            return model_->about.states[k].name;
+            return states_[k];
         case operation::constant:
-            return model_->about.constants[k].name;
+            return constants_[k];
         case operation::input:
-            return model_->about.inputs[k].name;
-        default:
-            return operation_line(n);
-        }
-    }
-    std::string literal_text(literal const& l) {
-        if (is_decimal(l.enclosure, l.nearest)) return nearest_text(l.nearest);
-        auto const name = "%" + std::to_string(++count_);
-        text_ += "constant\t" + name + "\t-\t" + ends(l.enclosure) + "\n";
-        return name;
-    }
-    std::string operation_line(node const& n) {
-        auto const& a = named_.at(n.a);
-        auto const with = [&](char const* sign) {
-            return line(a + "\t" + sign + "\t" + named_.at(n.b));
-        };
-        switch (n.op) {
+            return inputs_[k];
         case operation::neg:
             return line("-\t" + a);
         case operation::add:
-            return with("+");
+            return line(a + "\t+\t" + b);
         case operation::sub:
-            return with("-");
+            return line(a + "\t-\t" + b);
         case operation::mul:
-            return with("*");
+            return line(a + "\t*\t" + b);
         case operation::div:
-            return with("/");
+            return line(a + "\t/\t" + b);
+        default:
+            return function(n.op, n.index, a);
+        }
+    }
+    std::string function(operation op, int n, std::string const& a) {
+        switch (op) {
         case operation::pown:
-            return power(a, n.index);
+            return power(a, n);
         case operation::tan:
-            return quotient(line("sin\t" + a), line("cos\t" + a));
+            return line(line("sin\t" + a) + "\t/\t" + line("cos\t" + a));
         case operation::tanh: // 1 - 2/(exp(2 a) + 1)
             return line("1\t-\t" +
-                        quotient("2", line(line("exp\t" + line(a + "\t+\t" + a)) + "\t+\t1")));
+                        line("2\t/\t" + line(line("exp\t" + line(a + "\t+\t" + a)) + "\t+\t1")));
         case operation::sqr:
         case operation::sqrt:
         case operation::exp:
         case operation::sin:
         case operation::cos:
-            return line(std::string(name(n.op)) + "\t" + a);
+            return line(std::string(name(op)) + "\t" + a);
         default:
-            not_certifiable("the equations have '" + std::string(name(n.op)) +
+            not_certifiable("the equations have '" + std::string(name(op)) +
                             "', which the checker does not know");
         }
-    }
-    std::string quotient(std::string const& a, std::string const& b) {
-        return line(a + "\t/\t" + b);
     }
     std::string power(std::string const& a, int n) {
         if (n == 1) return a;
@@ -175,8 +160,9 @@ private:
         return n % 2 == 0 ? square : line(square + "\t*\t" + a);
     }
 
-    recorded_model const* model_;
+    graph const* g_;
     std::string text_;
+    std::vector<std::string> states_, inputs_, constants_;
     std::set<std::string> names_;
     std::map<node_id, std::string> named_;
     std::size_t count_ = 0;

@@ -8,7 +8,6 @@
 #include <sivid/work_limit.hpp>
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,9 +24,8 @@ public:
     /// may be weaker.
     static constexpr double slack = 0.02;
 
-    certificate_cover(identification_problem const& problem, double seconds, std::size_t boxes,
-                      std::function<bool()> const& keep_going)
-        : problem_(&problem), limit_(seconds, keep_going), boxes_(boxes) {
+    certificate_cover(identification_problem const& problem, std::size_t boxes, work_limit limit)
+        : problem_(&problem), limit_(std::move(limit)), boxes_(boxes) {
         for (auto e : problem.experiments) {
             for (auto& m : e.measurements) {
                 double const by = 0.5 * slack * width(m.bound);
@@ -48,9 +46,9 @@ public:
     /// The hull of what is kept; nothing where nothing is.
     [[nodiscard]] std::optional<box> const& hull_of_kept() const { return kept_; }
 
-    /// A number of few digits in x, near its middle.
-    [[nodiscard]] static double face(interval const& x) {
-        return few_digits(x.lower(), x.upper(), mid(x), 0.3 * width(x));
+    /// A number of few digits between two.
+    [[nodiscard]] static double face(double low, double high) {
+        return few_digits(low, high, 0.5 * low + 0.5 * high, 0.3 * (high - low));
     }
 
 private:
@@ -84,16 +82,31 @@ private:
         }
         auto const side = widest_side(x, problem_->prior, 1e-6);
         if (!side) return keep(x);
-        double const at = face(x[*side]);
+        double const at = face(x[*side].lower(), x[*side].upper());
         if (!(x[*side].lower() < at && at < x[*side].upper())) return keep(x);
         auto const [low, high] = split(x, *side, at);
         exclude(low);
         exclude(high);
     }
     [[nodiscard]] bool refutes(std::size_t e, box const& x) {
-        auto const& own = problem_->experiments[e];
-        auto const known = (*runs_[e])(own.initial, x);
-        return decide(known, runs_[e]->samples(), x, own.outliers) == run_finding::refuted;
+        auto const& starts = problem_->experiments[e].initial;
+        if (refutes_from(e, starts, x)) return true;
+        return refutes_from(e, point_box(mid(starts)), x) && refutes_halves(e, starts, x, 5);
+    }
+    [[nodiscard]] bool refutes_from(std::size_t e, box const& starts, box const& x) {
+        auto const known = (*runs_[e])(starts, x);
+        return decide(known, runs_[e]->samples(), x, problem_->experiments[e].outliers) ==
+               run_finding::refuted;
+    }
+    /// The same, the starts divided where they are widest: the checker does so, too.
+    [[nodiscard]] bool refutes_halves(std::size_t e, box const& starts, box const& x, int depth) {
+        auto const side = widest_side(starts, problem_->experiments[e].initial);
+        if (!side || depth == 0) return false;
+        auto const [low, high] = bisect(starts, *side, mid(starts[*side]));
+        auto const excluded = [&](box const& half) {
+            return refutes_from(e, half, x) || refutes_halves(e, half, x, depth - 1);
+        };
+        return excluded(low) && excluded(high);
     }
 
     identification_problem const* problem_;
