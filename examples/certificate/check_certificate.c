@@ -18,7 +18,7 @@
 #error "doubles have to be IEEE 754: no -ffast-math, no x87"
 #endif
 #define EACH(i, n) for (i = 0; i < (n); ++i)
-enum { ORDER = 10, NODES = 1000, ITEMS = 40, SIDES = 12, EXPERIMENTS = 20, FILES = 60, FIELDS = 8,
+enum { ORDER = 8, NODES = 1000, ITEMS = 40, SIDES = 12, EXPERIMENTS = 20, FILES = 60, FIELDS = 8,
        DEPTH = 200, LARGEST = 1 << 24 };
 static double work_left = 4e10, line_no; /* work: operations, some minutes; then it gives up */
 static void refuse(const char *why) { exit((printf("REFUSED, line %.0f: %s\n", line_no, why), 2)); }
@@ -157,8 +157,8 @@ static int next_line(void) { /* how many fields it has */
 }
 static int all_of(const char *s, const char *known) { return *s && s[strspn(s, known)] == 0; }
 static int whole_number(const char *s, int limit) {
-    if (!all_of(s, "0123456789") || strlen(s) > 8 || atoi(s) > limit) refuse("not in range");
-    return atoi(s);
+    int n = all_of(s, "0123456789") && strlen(s) < 9 ? atoi(s) : -1;
+    return n < 0 || n > limit ? refuse("not in range"), 0 : n;
 }
 static char *block(const char *size) { /* so many bytes and a line end */
     char *all = rest, *p;
@@ -183,8 +183,7 @@ static struct item { char *name; iv range; int node, rate; } items[OUTPUT + 1][I
 static int node_count, count[OUTPUT + 1], S, Q; /* how many states, states and parameters */
 static int node(enum kind op, int a, int b) {
     struct node n = {op, a, b, {0, 0}, NULL};
-    if (node_count == NODES) refuse("too many operations");
-    return nodes[node_count] = n, node_count++;
+    return node_count < NODES ? nodes[node_count] = n, node_count++ : (refuse("too long"), 0);
 }
 static int literal(iv value) { return nodes[node(LITERAL, 0, 0)].value = value, node_count - 1; }
 static int known(const char *name) {
@@ -196,8 +195,7 @@ static int operand(const char *s) {
     int i = known(s);
     if (i >= 0) return i;
     if (!strcmp(s, "t")) return node(TIME, 0, 0);
-    if (!strchr("0123456789.-", *s)) refuse("an unknown name");
-    return literal(number(s));
+    return strchr("0123456789.-", *s) ? literal(number(s)) : (refuse("an unknown name"), 0);
 }
 static struct item *find(enum kind kind, const char *name) {
     int i;
@@ -361,7 +359,7 @@ static int step(iv until) { /* at most twice as long as the last one */
         for (series(&over, ORDER, 0), x = h, k = 0; k < ORDER; ++k) x = mul(x, h);
         for (fits = 1, s = 0; s < S; ++s) {
             T[s] = mul(X(s)[ORDER + 1][0], x);
-            fits = fits && mag(T[s]) <= 1e-13 * mag(over.q[s]) + 1e-4 * width(now.q[s]) + 1e-300;
+            fits = fits && mag(T[s]) <= 1e-10 * mag(over.q[s]) + 1e-3 * width(now.q[s]) + 1e-300;
         }
     }
     if (!fits) return 0;
@@ -386,19 +384,24 @@ static int step(iv until) { /* at most twice as long as the last one */
     }
     return last = span, now.t = next, 1;
 }
-static void look(const struct reading *r) {
+static void look(const struct reading *r, int contract) { /* contract q to what explains it */
     int d, k, o = items[OUTPUT][r->channel].node;
-    iv y, g;
-    series(&centre, 0, 0), y = V[o][0][0], series(&now, 0, Q);
-    EACH(k, S) y = add(y, mul(V[o][0][1 + k], left[k]));
-    EACH(d, Q) {
-        g = d < S ? zero : V[o][0][1 + d];
-        EACH(k, S) g = add(g, mul(V[o][0][1 + k], point(C[k][d])));
-        y = add(y, mul(g, deviation[d]));
-        weight[d] = most(weight[d], mag(g) * width(deviation[d]) / (width(r->outer) + 1e-300));
+    iv y, all, g[SIDES], part[SIDES];
+    series(&centre, 0, 0), all = V[o][0][0], series(&now, 0, Q);
+    EACH(k, S) all = add(all, mul(V[o][0][1 + k], left[k]));
+    for (y = all, d = 0; d < Q; y = add(y, part[d++])) {
+        g[d] = d < S ? zero : V[o][0][1 + d];
+        EACH(k, S) g[d] = add(g[d], mul(V[o][0][1 + k], point(C[k][d])));
+        part[d] = mul(g[d], deviation[d]);
+        weight[d] = most(weight[d], mag(g[d]) * width(deviation[d]) / (width(r->outer) + 1e-300));
     }
     y = common(y, V[o][0][0]);
     hits += within(y, r->inner), misses += y.lo > r->outer.hi || y.hi < r->outer.lo;
+    if (contract) EACH(d, Q) {
+        for (y = sub(r->outer, all), k = 0; k < Q; ++k) y = k == d ? y : sub(y, part[k]);
+        y = quotient(y, g[d]), y = make(most(y.lo, deviation[d].lo), least(y.hi, deviation[d].hi));
+        misses += y.lo > y.hi, deviation[d] = y.lo > y.hi ? deviation[d] : y;
+    }
 }
 static iv next_knot(const struct experiment *e, int *knot, iv until) { /* or until, if first */
     int i;
@@ -426,20 +429,20 @@ static void run(const struct experiment *e, const iv *q, int most_misses) { /* h
     for (k = 0; k < e->measured.count && misses <= most_misses; ++k) {
         for (t = e->measured.all[k].t; until = next_knot(e, knot, t), !same(now.t, t);)
             if (!step(until)) return;
-        look(&e->measured.all[k]);
+        look(&e->measured.all[k], most_misses == 0);
     }
 }
-static int excluded(const struct experiment *e, iv *q, int depth) {
-    int d, side = 0, all;
-    iv own;
-    run(e, q, e->outliers);
+static int excluded(const struct experiment *e, const iv *box, int depth) {
+    int d, side = 0;
+    iv own, q[SIDES];
+    memcpy(q, box, sizeof q), run(e, q, e->outliers);
     if (misses > e->outliers || depth == 0) return misses > e->outliers;
     EACH(d, Q) side = weight[d] > weight[side] ? d : side;
-    own = q[side], q[side].hi = mid(own), all = excluded(e, q, depth - 1);
-    q[side] = between(mid(own), own.hi), all = all && excluded(e, q, depth - 1);
-    return q[side] = own, all;
+    EACH(d, Q) q[d] = common(q[d], add(point(mid(q[d])), deviation[d]));
+    own = q[side], q[side].hi = mid(own);
+    return excluded(e, q, depth - 1) &&
+           (q[side] = between(mid(own), own.hi), excluded(e, q, depth - 1));
 }
-/* ---- claims ---- */
 static iv kept[SIDES], hulls[SIDES], witness[SIDES];
 static struct { const char *name; char *text; } files[FILES];
 static int kept_boxes, out_boxes, open_boxes, seen[128]; /* statements by their first letters */
@@ -456,17 +459,17 @@ static void tree(iv *p, int depth) { /* p: the parameters of a box */
     if (n == 2 && !strcmp(fields[0], "out")) {
         j = whole_number(fields[1], experiment_count - 1);
         memcpy(q, experiments[j].start, sizeof kept), memcpy(q + S, p, sizeof kept);
-        if (excluded(&experiments[j], q, 10) && ++out_boxes) return;
+        if (excluded(&experiments[j], q, 12) && ++out_boxes) return;
         ++open_boxes;
     } else if (n != 1 || strcmp(fields[0], "keep")) refuse("a tree that makes no sense");
     EACH(j, Q - S) kept[j] = kept_boxes ? hull(kept[j], p[j]) : p[j];
     ++kept_boxes;
 }
 static int witness_holds(void) {
+    struct experiment *e = experiments;
     int k, j, good = 1;
     iv q[2 * SIDES];
-    EACH(k, experiment_count) {
-        struct experiment *e = &experiments[k];
+    for (k = 0; k < experiment_count; ++k, ++e) {
         memcpy(q, e->from, sizeof kept), memcpy(q + S, witness, sizeof kept);
         EACH(j, Q) good = good && within(q[j], j < S ? e->start[j] : items[PARAMETER][j - S].range);
         run(e, q, e->measured.count), good = good && hits + e->outliers >= e->measured.count;
@@ -484,8 +487,7 @@ static void read_file(char **f, const char *folder) { /* of the data */
     sha_add(&of_data, path, (size_t)sprintf(path, "%.2000s\n%s\n", f[1], f[2]));
     sha_add(&of_data, all, n);
     if (seen['f'] > FILES || seen['d'] > 0) refuse("too many files, or one behind the digest");
-    files[seen['f'] - 1].name = f[1], files[seen['f'] - 1].text = all;
-    if (!folder) return;
+    if (files[seen['f'] - 1].name = f[1], files[seen['f'] - 1].text = all, !folder) return;
     sprintf(path, "%.2000s/%.2000s", folder, f[1]);
     other = strstr(f[1], "..") ? NULL : fopen(path, "rb");
     EACH(i, n + 1)
@@ -556,9 +558,7 @@ static void statement(const char *folder) {
         *(key == 'w' ? &witness[i] : &hulls[i]) = key == 'w' ? number(f[2]) : range(f[2], f[3]);
     }
 }
-static int told(int good, const char *what) {
-    return printf("%s: %s\n", good ? "PROVED" : "NOT PROVED", what), good;
-}
+static int told(int ok, const char *s) { return printf("%sPROVED: %s\n", ok ? "" : "NOT ", s), ok; }
 static int judged(const char *verdict) { /* whether all that is claimed is proved */
     const char *needed = "tmfdsproeban";
     int i, good = 1, has_tree = rest < end_of_file, point_ = seen['w'] > 0, hull_ = seen['h'] > 0;
@@ -577,14 +577,14 @@ static int judged(const char *verdict) { /* whether all that is claimed is prove
     printf("boxes: %d excluded, %d kept, %d of them in vain\n", out_boxes, kept_boxes, open_boxes);
     EACH(i, Q - S) hull_ = hull_ && within(kept[i], hulls[i]);
     return told(hull_ || kept_boxes == 0, none ? "no parameter of the prior explains them"
-                : "no parameter of the prior outside of the hull explains them") && good;
+                : "no parameter of the prior beyond the hull explains them") && good && !open_boxes;
 }
 int main(int argc, char **argv) {
     FILE *in = argc == 2 || argc == 3 ? fopen(argv[1], "rb") : NULL;
     volatile double small = DBL_MIN, one = 1;
+    static char all[LARGEST + 1];
     size_t n, i;
-    char *all = malloc(LARGEST + 1);
-    if (!in || !all) return puts("usage: check_certificate FILE [FOLDER OF THE DATA]"), 2;
+    if (!in) return puts("usage: check_certificate FILE [FOLDER OF THE DATA]"), 2;
     n = fread(all, 1, LARGEST + 1, in), fclose(in);
     if (one + 0x1p-53 != 1 || one + 0x1.8p-53 == 1 || -one - 0x1p-53 != -1 || small / 2 == 0)
         refuse("doubles are not those of IEEE 754, rounded to nearest");

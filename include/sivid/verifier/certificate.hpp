@@ -26,31 +26,26 @@ struct certificate_source {
 struct certificate_limits {
     double seconds = 20;
     std::size_t boxes = 5000; ///< that are tried to exclude
-    /// How much wider than the result's hull the certified one is on each side, as a share of its
-    /// width: a simple checker follows no search up to the edge.
-    double margin = 0.04;
+    double margin = 0.04;     ///< on each side of the result's hull, as a share of its width
     std::function<bool()> keep_going = nullptr; ///< once false, no further box is tried
 };
 
 /// A result with its data, model, assumptions and proofs in one text (sivid-certificate-1) that a
-/// program without sivid can check: examples/certificate/check_certificate.c.
+/// program without sivid checks: examples/certificate/check_certificate.c.
 struct certificate {
     std::string text;
-    std::vector<std::string> claimed;  ///< what the checker is to prove, in words
-    std::vector<std::string> unproved; ///< what the result says beyond that
-    std::size_t excluded = 0;          ///< boxes that cover what is claimed to be excluded
-    bool whole = false; ///< the verdict is claimed, and the hull where the result has one
+    std::vector<std::string> claimed, unproved; ///< in words: for the checker; said by the result
+    std::size_t excluded = 0;                   ///< boxes that cover what is claimed to be excluded
+    bool whole = false; ///< the verdict is claimed, and the hull with its margin
 };
 
-/// Writes the certificate of a stored identification. Each claim was proved here by plain runs of
-/// first order, with measurement bounds 2 % wider than stated; where that fails within the limits
-/// it stands among `unproved` instead.
+/// Writes the certificate of a stored identification. What it claims was proved here by runs of
+/// first order, boxes with measurement bounds 2 % wider than stated; the rest is `unproved`.
 /// @given  `require_same_problem`; the problem has the outlier budgets of the result
 /// @throws std::invalid_argument  naming what no certificate can hold: delays, plays, rate limits,
-///         inputs with error bounds or given by formulas, starts that follow parameters, implicit
-///         equations, kinks (abs, sign, min, max), atan and log, tables in other units than the
-///         model's, more than 12 states and parameters
-/// @throws input_error  where data or result are not those of `stored`
+///         uncertain or switched inputs, implicit equations, kinks (abs, sign, min, max), atan and
+///         log, tables in other units than the model's, more than 12 states and parameters;
+///         input_error where the data are not those of `stored`
 /// @cost  a validated run for each box that is tried
 [[nodiscard]] SIVID_DECL certificate make_certificate(identification_problem const& problem,
                                                       dataset const& data,

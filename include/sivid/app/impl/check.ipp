@@ -224,8 +224,9 @@ SIVID_DECL int run(robot const& r, certificate_command const& c) {
     certificate_source source{folder, c.result / "result.json", "model", {}};
     require_same_problem(problem, stored, source.result);
     for (auto& e : problem.experiments) e.outliers = stored.budget.at(e.name);
-    source.model_text = r.file.empty() ? describe(problem.model) : read_text(r.file);
-    if (!r.file.empty()) source.model_name = std::filesystem::path(r.file).filename().string();
+    bool const text = std::filesystem::is_regular_file(r.file);
+    source.model_text = text ? read_text(r.file) : describe(problem.model);
+    if (text) source.model_name = std::filesystem::path(r.file).filename().string();
     certificate_limits limits;
     limits.seconds = c.budget;
     limits.keep_going = wanted;

@@ -10,6 +10,7 @@
 #include <sivid/io/text/text_file.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/verifier/claim/detail/certificate_equations.hpp>
+#include <sivid/verifier/claim/detail/named_motion.hpp>
 #include <sivid/verifier/proof/detail/certificate_cover.hpp>
 
 #include <map>
@@ -61,20 +62,17 @@ private:
     void require_known_kind() const {
         auto const& m = problem_.model;
         if (m.has_memory()) not_certifiable("the model has delays, plays or rate limits");
-        if (!m.added_states.empty())
-            not_certifiable("effects added states with starts of their own");
+        if (!m.added_states.empty()) not_certifiable("effects added states with own starts");
         if (m.stated) not_certifiable("the model's equations are implicit");
         if (m.about.states.size() + problem_.prior.size() > 12 || m.about.inputs.size() > 12 ||
             problem_.experiments.size() > 20)
-            not_certifiable(
-                "the checker takes 12 states and parameters, 12 inputs, 20 experiments");
+            not_certifiable("more than 12 states and parameters, 12 inputs or 20 experiments");
         for (auto const& e : problem_.experiments) {
-            for (auto const& u : e.inputs)
-                if (is_uncertain(u) || !std::holds_alternative<sampled_signal>(u))
-                    not_certifiable("an input of '" + e.name +
-                                    "' has error bounds, or is switched");
             if (e.begin != 0 || e.constraint || scenario_of(e) == nullptr)
                 not_certifiable("'" + e.name + "' is no scenario of the data set");
+            for (auto const& u : e.inputs)
+                if (is_uncertain(u) || !std::holds_alternative<sampled_signal>(u))
+                    not_certifiable("inputs of '" + e.name + "' have error bounds or switches");
         }
     }
     [[nodiscard]] scenario const* scenario_of(experiment const& e) const {
@@ -109,19 +107,16 @@ private:
     /// The checker reads the tables as they are.
     void require_own_units(json_value const& root) const {
         auto const& about = problem_.model.about;
-        auto const require = [](std::string const& what, json_value const* stated,
-                                std::string const& own) {
+        auto const require = [](json_value const* stated, std::string const& own) {
             if (stated != nullptr && stated->string() != own)
-                not_certifiable(what + " is in " + stated->string() + ", in the model in " + own +
-                                ": import it in the model's units");
+                not_certifiable("the tables are in " + stated->string() + ", the model is in " +
+                                own + ": import them in the model's units");
         };
-        auto const all = [&](json_value const* units, auto const& items) {
-            for (auto const& i : items)
-                if (units != nullptr) require(i.name, units->find(i.name), i.unit);
-        };
-        require("the time", root.find("time_unit"), about.time_unit);
-        all(root.find("channel_units"), about.channels);
-        all(root.find("input_units"), about.inputs);
+        require(root.find("time_unit"), about.time_unit);
+        for (auto const& [key, items] :
+             {std::pair{"channel_units", &about.channels}, {"input_units", &about.inputs}})
+            for (auto const& i : *items)
+                if (auto const* const units = root.find(key)) require(units->find(i.name), i.unit);
     }
 
     /// A range as the data set states it, if it is that; else decimals around it.
@@ -151,28 +146,16 @@ private:
 
     /// By runs of first order from the point, in doubles.
     [[nodiscard]] bool witness_holds() const {
-        auto const& w = *stored_.witness;
-        box p = problem_.prior;
-        auto const place = [](auto const& items, auto const& values, box& x) {
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                auto const at = values.find(items[i]);
-                bool const free = at != values.end() && width(x[i]) > 0;
-                if (free) x[i] = intersect(x[i], interval(at->second));
-            }
-            return !is_empty(x);
-        };
-        std::vector<std::string> states;
-        for (auto const& s : problem_.model.about.states) states.push_back(s.name);
-        if (!place(problem_.choice.unknown, w.parameters, p)) return false;
-        for (auto const& e : problem_.experiments) {
-            box from = e.initial;
-            auto const own = w.initial.find(e.name);
-            if (own == w.initial.end() || !place(states, own->second, from)) return false;
+        std::string fault;
+        auto const at = witness_motion(problem_, stored_, fault);
+        for (std::size_t k = 0; at && k < problem_.experiments.size(); ++k) {
+            auto const& e = problem_.experiments[k];
             plain_run<interval> run(problem_.model, problem_.choice, e, certificate_options());
-            if (decide(run(from, p), run.samples(), p, e.outliers) != run_finding::explained)
+            auto const known = run(at->starts[k], at->parameters);
+            if (decide(known, run.samples(), at->parameters, e.outliers) != run_finding::explained)
                 return false;
         }
-        return true;
+        return at.has_value();
     }
     /// @param explained  the witness and its starts, too
     void write_experiments(bool explained) {
@@ -184,15 +167,14 @@ private:
             line("experiment", e.name, tables_[e.name]["measurements"], tables_[e.name]["inputs"],
                  std::string(hold ? "hold" : "linear"), std::to_string(e.outliers));
             for (std::size_t i = 0; i < e.initial.size(); ++i) {
-                auto const& stated = s.initial[i].stated;
+                auto const& [name, stated] = std::pair{about.states[i].name, s.initial[i].stated};
                 auto const [low, high] = ends(e.initial[i], stated ? &*stated : nullptr);
-                result_.text += "begins\t" + about.states[i].name + "\t" + low + "\t" + high;
-                if (explained)
-                    result_.text +=
-                        "\t" + (low == high ? low
-                                            : nearest_text(stored_.witness->initial.at(e.name).at(
-                                                  about.states[i].name)));
-                result_.text += "\n";
+                if (!explained)
+                    line("begins", name, low, high);
+                else
+                    line("begins", name, low, high,
+                         low == high ? low
+                                     : nearest_text(stored_.witness->initial.at(e.name).at(name)));
             }
         }
         if (!explained) return;
@@ -220,10 +202,7 @@ private:
         certificate_cover cover(problem_, limits.boxes,
                                 work_limit(limits.seconds, limits.keep_going));
         auto const wanted = kept_box(limits.margin);
-        if (none)
-            cover.all();
-        else
-            cover.around(wanted);
+        cover.exclude_all_but(none ? std::nullopt : std::optional{wanted});
         auto const& kept = cover.hull_of_kept();
         bool const tree = cover.excluded() > 0, refuted = tree && !kept;
         bool const as_wanted = none ? refuted : kept && subset(*kept, wanted);

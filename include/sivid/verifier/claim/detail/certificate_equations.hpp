@@ -122,37 +122,29 @@ private:
             return inputs_[k];
         case operation::neg:
             return line("-\t" + a);
-        case operation::add:
-            return line(a + "\t+\t" + b);
-        case operation::sub:
-            return line(a + "\t-\t" + b);
-        case operation::mul:
-            return line(a + "\t*\t" + b);
-        case operation::div:
-            return line(a + "\t/\t" + b);
-        default:
-            return function(n.op, n.index, a);
-        }
-    }
-    std::string function(operation op, int n, std::string const& a) {
-        switch (op) {
         case operation::pown:
-            return power(a, n);
+            return power(a, n.index);
         case operation::tan:
             return line(line("sin\t" + a) + "\t/\t" + line("cos\t" + a));
         case operation::tanh: // 1 - 2/(exp(2 a) + 1)
             return line("1\t-\t" +
                         line("2\t/\t" + line(line("exp\t" + line(a + "\t+\t" + a)) + "\t+\t1")));
-        case operation::sqr:
-        case operation::sqrt:
-        case operation::exp:
-        case operation::sin:
-        case operation::cos:
-            return line(std::string(name(op)) + "\t" + a);
         default:
-            not_certifiable("the equations have '" + std::string(name(op)) +
-                            "', which the checker does not know");
+            return usual(n.op, a, b);
         }
+    }
+    std::string usual(operation op, std::string const& a, std::string const& b) {
+        static std::map<operation, std::string> const signs{{operation::add, "\t+\t"},
+                                                            {operation::sub, "\t-\t"},
+                                                            {operation::mul, "\t*\t"},
+                                                            {operation::div, "\t/\t"}};
+        static std::set const functions{operation::sqr, operation::sqrt, operation::exp,
+                                        operation::sin, operation::cos};
+        if (auto const sign = signs.find(op); sign != signs.end())
+            return line(a + sign->second + b);
+        if (functions.contains(op)) return line(std::string(name(op)) + "\t" + a);
+        not_certifiable("the equations have '" + std::string(name(op)) +
+                        "', which the checker does not know");
     }
     std::string power(std::string const& a, int n) {
         if (n == 1) return a;

@@ -36,10 +36,10 @@ public:
         }
     }
 
-    /// Excludes the prior, but for a box in it.
-    void around(box const& kept) { around(problem_->prior, kept, 0, false); }
-    /// Excludes the prior.
-    void all() { exclude(problem_->prior); }
+    /// Excludes the prior, but for a box in it if there is one.
+    void exclude_all_but(std::optional<box> const& kept) {
+        kept ? around(problem_->prior, *kept, 0, false) : exclude(problem_->prior);
+    }
 
     [[nodiscard]] std::string const& text() const { return text_; }
     [[nodiscard]] std::size_t excluded() const { return excluded_; }
