@@ -224,7 +224,7 @@ static int operation(char **word, int n) { /* A, A + B, - A, sin A with its deri
     return nodes[f].b = b, f;
 }
 /* ---- power series in time, with derivatives by states and parameters ---- */
-static iv V[NODES][ORDER + 2][1 + SIDES]; /* node, order; value and derivatives */
+static iv V[NODES][ORDER + 2][1 + SIDES], clock; /* node, order; value and derivatives */
 #define X(s) V[items[STATE][s].node]
 static int dims; /* how many derivatives are carried */
 struct place { iv q[SIDES], u[SIDES], slope[SIDES], t; }; /* q: states and parameters */
@@ -277,11 +277,8 @@ static void series(const struct place *at, int order, int derivatives) {
             X(i)[k + 1][d] = quotient(V[items[STATE][i].rate][k][d], point(k + 1));
     }
 }
-static iv polynomial(int s, int d, iv h) {
-    iv x = zero;
-    int k;
-    for (k = ORDER; k >= 0; --k) x = add(mul(x, h), X(s)[k][d]);
-    return x;
+static iv polynomial(int s, int d, iv h, int k) {
+    return k > ORDER ? zero : add(X(s)[k][d], mul(h, polynomial(s, d, h, k + 1)));
 }
 /* ---- experiments; inner, outer: bounds of a measurement, rounded inward and outward ---- */
 struct reading { iv t, u, inner, outer; int channel; };
@@ -316,10 +313,11 @@ static void read_table(char *p, enum kind kind, struct experiment *e) { /* t, na
                                        strcmp(error + strlen(value), "_err")))
                     refuse("a column without its errors");
             } else if (*value && i < columns) {
-                iv u = number(value), by = error == value ? zero : number(error);
-                struct reading r = {zero, u, zero, zero, column[i]};
+                iv unit = items[kind][column[i]].range, u = mul(number(value), unit);
+                iv by = error == value ? zero : mul(number(error), unit);
+                struct reading r = {mul(number(time), clock), u, zero, zero, column[i]};
                 if (by.lo < 0) refuse("an error bound below 0");
-                r.t = number(time), r.outer = hull(sub(u, by), add(u, by));
+                r.outer = hull(sub(u, by), add(u, by));
                 r.inner = make(sub(u, by).hi, add(u, by).lo);
                 keep(kind == OUTPUT ? &e->measured : &e->inputs[column[i]], r);
             }
@@ -364,9 +362,9 @@ static int step(iv until) { /* at most twice as long as the last one */
     }
     if (!fits) return 0;
     series(&centre, ORDER, 0);
-    EACH(s, S) T[s] = add(T[s], polynomial(s, 0, h));
+    EACH(s, S) T[s] = add(T[s], polynomial(s, 0, h, 0));
     series(&now, ORDER, Q);
-    EACH(s, S) EACH(d, Q) J[s][d] = polynomial(s, 1 + d, h);
+    EACH(s, S) EACH(d, Q) J[s][d] = polynomial(s, 1 + d, h, 0);
     EACH(s, S) {
         r[s] = sub(T[s], point(mid(T[s])));
         EACH(k, S) r[s] = add(r[s], mul(J[s][k], left[k]));
@@ -504,7 +502,7 @@ static void model_line(char **f, int n) {
     if (experiment_count > 0) refuse("a line of the model behind an experiment");
     if (*f[0] == 'r' && find(STATE, f[1])->rate >= 0) refuse("a rate stands twice");
     if (*f[0] == 'r') find(STATE, f[1])->rate = operand(f[3]);
-    if (*f[0] == 'o') declare(OUTPUT, f[1], operand(f[4]));
+    if (*f[0] == 'o') declare(OUTPUT, f[1], operand(f[6]))->range = range(f[3], f[4]);
     if (*f[0] == 'r' || *f[0] == 'o') return;
     if (known(f[1]) >= 0 || strchr("0123456789.-", *f[1])) refuse("not a name, or taken");
     if (kind == STATE && Q > S) refuse("a state behind a parameter");
@@ -513,13 +511,13 @@ static void model_line(char **f, int n) {
     if (nodes[k].name) k = node(ADD, k, literal(zero));
     nodes[k].name = f[1];
     if (*f[0] == 'c' || *f[0] == 'l') return;
-    declare((enum kind)kind, f[1], k)->range = kind == PARAMETER ? range(f[3], f[4]) : zero;
+    declare((enum kind)kind, f[1], k)->range = kind == STATE ? zero : range(f[3], f[4]);
 }
 static void begin_experiment(char **f) {
     struct experiment *e = &experiments[experiment_count++];
     struct track *u = e->inputs, *y = &e->measured;
     int i;
-    if (experiment_count > EXPERIMENTS || !seen['d']) refuse("too many experiments, or no data");
+    if (experiment_count > EXPERIMENTS || !seen['d'] || !seen['t']) refuse("too many, or no data");
     e->hold = !strcmp(f[4], "hold"), e->outliers = whole_number(f[5], 99999999);
     if (!e->hold && strcmp(f[4], "linear")) refuse("neither linear nor hold");
     read_table(file(f[2]), OUTPUT, e);
@@ -530,8 +528,8 @@ static void begin_experiment(char **f) {
         refuse("an input that does not last");
 }
 static void statement(const char *folder) {
-    static const char forms[] = " title3 model3 file3 data3 state3 parameter5 input3 constant4 "
-        "constant5 let4 let5 let6 rate4 output5 experiment6 begins4 begins5 witness3 hull4 assume2 "
+    static const char forms[] = " title5 model3 file3 data3 state3 parameter5 input5 constant4 "
+        "constant5 let4 let5 let6 rate4 output7 experiment6 begins4 begins5 witness3 hull4 assume2 "
         "noted2 unproved2 verdict2 ";
     char form[40], **f = fields;
     int n = next_line(), i, key = *f[0];
@@ -541,6 +539,7 @@ static void statement(const char *folder) {
     EACH(i, n) printf("%s%s", i ? " " : "", f[i]);
     puts(""), ++seen[key];
     if (strchr("spiclro", key)) model_line(f, n);
+    if (key == 't') clock = seen['t'] > 1 ? (refuse("two titles"), zero) : range(f[3], f[4]);
     if (key == 'm') block(f[2]);
     if (key == 'f') read_file(f, folder);
     if (key == 'e') begin_experiment(f);

@@ -44,8 +44,8 @@ struct certificate {
 /// @given  `require_same_problem`; the problem has the outlier budgets of the result
 /// @throws std::invalid_argument  naming what no certificate can hold: delays, plays, rate limits,
 ///         uncertain or switched inputs, implicit equations, kinks (abs, sign, min, max), atan and
-///         log, tables in other units than the model's, more than 12 states and parameters;
-///         input_error where the data are not those of `stored`
+///         log, tables with comments, more than 12 states and parameters; input_error where the
+///         data are not those of `stored`
 /// @cost  a validated run for each box that is tried
 [[nodiscard]] SIVID_DECL certificate make_certificate(identification_problem const& problem,
                                                       dataset const& data,

@@ -5,6 +5,7 @@
 #include <sivid/verifier/certificate.hpp>
 
 #include <sivid/io/dataset/dataset_digest.hpp>
+#include <sivid/io/dataset/stated_unit.hpp>
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/io/text/text_file.hpp>
@@ -33,10 +34,13 @@ public:
         problem_.require_valid();
         require_known_kind();
         line("sivid-certificate-1");
-        line("title", data_.id, problem_.model.about.time_unit);
+        auto const root = read_json(source_.folder / "dataset.json");
+        auto const& time = problem_.model.about.time_unit;
+        auto const [from, to] = factor(root.find("time_unit"), time);
+        line("title", data_.id, time, from, to);
         block("model", source_.model_name, source_.model_text);
-        write_data();
-        write_model();
+        write_data(root);
+        write_model(root);
         bool const explained = stored_.witness && witness_holds();
         write_experiments(explained);
         write_claims(limits, explained);
@@ -81,14 +85,12 @@ private:
         return nullptr;
     }
 
-    void write_data() {
+    void write_data(json_value const& root) {
         auto const main = source_.folder / "dataset.json";
         auto const digest = dataset_digest(source_.folder);
         if (digest != stored_.source_digest)
             throw input_error({.file = main.string()}, "these are not the data of the result",
                               "identify them anew, or name those that were identified");
-        auto const root = read_json(main);
-        require_own_units(root);
         block("file", "dataset.json", read_text(main));
         for (auto const& s : root.at("scenarios").elements()) {
             for (auto const* key : {"inputs", "measurements"}) {
@@ -104,19 +106,13 @@ private:
         }
         line("data", digest, sha256(read_text(source_.result)));
     }
-    /// The checker reads the tables as they are.
-    void require_own_units(json_value const& root) const {
-        auto const& about = problem_.model.about;
-        auto const require = [](json_value const* stated, std::string const& own) {
-            if (stated != nullptr && stated->string() != own)
-                not_certifiable("the tables are in " + stated->string() + ", the model is in " +
-                                own + ": import them in the model's units");
-        };
-        require(root.find("time_unit"), about.time_unit);
-        for (auto const& [key, items] :
-             {std::pair{"channel_units", &about.channels}, {"input_units", &about.inputs}})
-            for (auto const& i : *items)
-                if (auto const* const units = root.find(key)) require(units->find(i.name), i.unit);
+    /// What a number of a table is multiplied by to be in the model's unit, between two decimals.
+    [[nodiscard]] static std::pair<std::string, std::string> factor(json_value const* stated,
+                                                                    std::string const& own) {
+        auto const one = exact_decimal::shortest(1);
+        if (stated == nullptr) return {"1", "1"};
+        auto const range = stated_unit(*stated, own, "a table").range(one, one);
+        return {range.value().lower.text(), range.value().upper.text()};
     }
 
     /// A range as the data set states it, if it is that; else decimals around it.
@@ -127,11 +123,22 @@ private:
             return {stated->lower.text(), stated->upper.text()};
         return {to_decimal_lower(x.lower()), to_decimal_upper(x.upper())};
     }
-    void write_model() {
+    void write_model(json_value const& root) {
         auto const& about = problem_.model.about;
-        certificate_equations const equations(problem_.model, problem_.choice);
+        auto const* const of_channels = root.find("channel_units");
+        auto const* const of_inputs = root.find("input_units");
+        std::vector<std::string> units;
+        for (auto const& y : about.channels) {
+            auto const [from, to] =
+                factor(of_channels != nullptr ? of_channels->find(y.name) : nullptr, y.unit);
+            units.push_back(certificate_field(y.unit) + "\t" + from + "\t" + to);
+        }
         for (auto const& s : about.states) line("state", s.name, s.unit);
-        for (auto const& u : about.inputs) line("input", u.name, u.unit);
+        for (auto const& u : about.inputs) {
+            auto const [from, to] =
+                factor(of_inputs != nullptr ? of_inputs->find(u.name) : nullptr, u.unit);
+            line("input", u.name, u.unit, from, to);
+        }
         for (std::size_t j = 0; j < problem_.prior.size(); ++j) {
             auto const& name = problem_.choice.unknown[j];
             stated_range const* stated = nullptr;
@@ -141,7 +148,7 @@ private:
             auto const& c = about.constants[index_of(about.constants, name, "constant")];
             line("parameter", name, c.unit, prior_[j].first, prior_[j].second);
         }
-        result_.text += equations.text();
+        result_.text += certificate_equations(problem_.model, problem_.choice, units).text();
     }
 
     /// By runs of first order from the point, in doubles.

@@ -33,7 +33,10 @@ namespace sivid::io_detail {
 /// The equations of a model as a certificate has them: one operation a line.
 class certificate_equations {
 public:
-    certificate_equations(recorded_model const& m, parameter_choice const& choice) : g_(&m.g) {
+    /// @param units  of the channels, each with the factor of its numbers
+    certificate_equations(recorded_model const& m, parameter_choice const& choice,
+                          std::vector<std::string> const& units)
+        : g_(&m.g) {
         auto const& about = m.about;
         for (auto const& s : about.states) states_.push_back(own_name(s.name));
         for (auto const& u : about.inputs) inputs_.push_back(own_name(u.name));
@@ -59,8 +62,7 @@ public:
         for (auto const& d : followed(m, choice)) define("let\t" + constants_[d.constant], d.value);
         for (std::size_t i = 0; i < states_.size(); ++i) define("rate\t" + states_[i], m.rate[i]);
         for (std::size_t y = 0; y < m.observe.size(); ++y)
-            define("output\t" + certificate_field(about.channels[y].name) + "\t" +
-                       certificate_field(about.channels[y].unit),
+            define("output\t" + certificate_field(about.channels[y].name) + "\t" + units.at(y),
                    m.observe[y]);
     }
     [[nodiscard]] std::string const& text() const { return text_; }
