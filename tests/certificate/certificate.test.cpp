@@ -312,6 +312,36 @@ TEST_CASE("random damages neither crash the checker nor make it prove what is fa
     }
 }
 
+TEST_CASE("both know the same functions, and the same time", "[certificate]") {
+    certified swing;
+    auto const model = (swing.folder.path() / "swing.toml").string();
+    swing.folder.write("swing.toml", R"(format = "sivid-model-1"
+name = "swing"
+states = { th = "3 rad", w = "5 rad/s" }
+inputs = { u = "rad/s^2" }
+constants = { a = "[8, 12] 1/s^2", b = "0.6 rad/s^2" }
+outputs = { th = "th" }
+[equations]
+th = "w"
+w = """-a*sin(th)*1 [rad] - b*tanh(w/1 [rad/s]) + 0.1 [rad/s^2]*exp(-(w/1 [rad/s])^2)*cos(th)
+       + 0.05 [rad/s^2]*sqrt(1 + tan(th/4)^3 + t/1 [s]) + u"""
+)");
+    swing.folder.write("s.json", R"({ "format": "sivid-scenario-1", "name": "swing", "duration": 1,
+        "initial": { "th": 0.5, "w": 0 }, "inputs": { "u": { "shape": "constant", "value": 0.5 } } })");
+    REQUIRE(sivid_program({"generate", model, "--scenario",
+                           (swing.folder.path() / "s.json").string(), "--absolute", "0.02",
+                           "--rate", "5", "--input-rate", "5", "--out", swing.data})
+                .code == 0);
+    swing.identify(model);
+    REQUIRE(swing.code == 0);
+    CHECK(verdict_on(swing.text, CHECK_CERTIFICATE, swing.data) == 0);
+    CHECK(verdict_on(with(swing.text, "sin\tth", "cos\tth")) == 3);
+    CHECK(verdict_on(with(swing.text, "title\tgenerated\ts\t1\t1", "title\tgenerated\ts\t2\t2")) ==
+          3);
+    CHECK(verdict_on(with(swing.text, "input\tu\trad/s^2\t1\t1", "input\tu\trad/s^2\t9\t9")) == 3);
+    CHECK(verdict_on(with(swing.text, "\nstate\tw", "\ntitle\tx\ts\t1\t1\nstate\tw")) == 2);
+}
+
 TEST_CASE("what no certificate can hold is said in words", "[certificate]") {
     temporary_folder const folder;
     auto const refused = [&](std::string const& model, std::string const& data) {
