@@ -12,7 +12,7 @@ for all that is left.
 The module calls what the program ``sivid`` calls; results are the same files, which ``sivid check`` proves anew.
 """
 from ._core import Error, InternalError, version as __version__
-from .commands import check, control, design, diagnose, generate, identify, predict, rank, simulate, verify
+from .commands import certificate, check, control, design, diagnose, generate, identify, predict, rank, simulate, verify
 from .data import Data
 from .model import Model
 from .results import Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification
@@ -30,6 +30,7 @@ __all__ = [
     "Ranking",
     "Result",
     "Verification",
+    "certificate",
     "check",
     "clamp",
     "control",

@@ -17,7 +17,19 @@ from .data import Data
 from .model import Model
 from .results import Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification, Workplace
 
-__all__ = ["check", "control", "design", "diagnose", "generate", "identify", "predict", "rank", "simulate", "verify"]
+__all__ = [
+    "certificate",
+    "check",
+    "control",
+    "design",
+    "diagnose",
+    "generate",
+    "identify",
+    "predict",
+    "rank",
+    "simulate",
+    "verify",
+]
 
 File = Union[str, os.PathLike]
 Record = Union[Data, File]
@@ -194,6 +206,19 @@ def check(result: Result | File, *, model: Model | None = None, progress: Progre
         folder, of = Path(result), model
     return _answer(
         of, ["check", str(folder), *_words(options)], progress, lambda answer: Result(of, Workplace(folder), answer)
+    )
+
+
+def certificate(result: Identification, file: File, *, progress: Progress = None, **options) -> Result:
+    """Writes the result with its data, model, assumptions and proofs into one file, which ``check_certificate``, a
+    program in C without sivid, proves anew. ``code`` is 0 when verdict and hull are certified, 3 when a part is.
+    Options: ``budget``, ``dataset``.
+    """
+    if not isinstance(result, Identification):
+        raise TypeError("a certificate is of the result of identify, or of the identification of a diagnosis")
+    words = ["certificate", str(result.folder), "--out", os.fspath(file), *_words(options)]
+    return _answer(
+        result.model, words, progress, lambda answer: Result(result.model, Workplace(result.folder), answer, result)
     )
 
 

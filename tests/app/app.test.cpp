@@ -33,9 +33,9 @@ TEST_CASE("every command explains itself with an example") {
     auto const all = run({"--help"});
     CHECK(all.code == 0);
     CHECK_THAT(all.out, ContainsSubstring("A cup of tea"));
-    for (std::string const command :
-         {"import", "simulate", "generate", "identify", "online", "check", "diagnose", "predict",
-          "verify", "control", "design", "rank", "report", "describe", "fleet"}) {
+    for (std::string const command : {"import", "simulate", "generate", "identify", "online",
+                                      "check", "certificate", "diagnose", "predict", "verify",
+                                      "control", "design", "rank", "report", "describe", "fleet"}) {
         CAPTURE(command);
         CHECK_THAT(all.out, ContainsSubstring(command));
         auto const one = run({command, "--help"});

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """identify: the same as the program, as arrays."""
 import json
+import os
 import subprocess
+from pathlib import Path
 
 import numpy as np
 
@@ -95,6 +97,21 @@ class Identify(Case):
         )
         (saved / "boxes.csv").write_text((saved / "boxes.csv").read_text().replace("undecided", "inside"))
         self.assertEqual(sivid.check(saved, model=model).code, 5)
+
+    def test_a_certificate_is_checked_without_sivid(self):
+        found = sivid.identify(sivid.Model.read(GROWTH), growth_data(), budget=60, accuracy=0.3)
+        file = self.folder / "certificate.txt"
+        made = sivid.certificate(found, file, budget=30)
+        self.assertEqual(made.code, 0, made.text)
+        self.assertIn("the witness explains the measurements", made.text)
+        self.assertRaises(TypeError, sivid.certificate, made, file)
+        checker = Path(os.environ["SIVID_BUILD_DIR"]) / "examples/certificate/check_certificate"
+        if not checker.is_file():
+            self.skipTest("the checker is not built")
+        checked = subprocess.run([checker, file], capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        file.write_text(file.read_text().replace("hull\tK", "hull\tr"))
+        self.assertEqual(subprocess.run([checker, file], capture_output=True).returncode, 2)
 
     def test_errors_have_the_words_of_the_program(self):
         model = sivid.Model.read(GROWTH)

@@ -89,6 +89,15 @@ struct check_command : command {
 /// otherwise.
 [[nodiscard]] SIVID_DECL int run(robot const& r, check_command const& c);
 
+/// `certificate`: an identification as a text that a program without sivid can check.
+struct certificate_command : command { ///< `out`: the file; empty: certificate.txt of the result
+    std::filesystem::path result;
+    std::filesystem::path dataset; ///< empty: where the result says
+    double budget = 20;            ///< [s]
+};
+/// Ends with 0 where verdict and hull are certified, else with `undecided`.
+[[nodiscard]] SIVID_DECL int run(robot const& r, certificate_command const& c);
+
 struct diagnose_command : command {
     std::filesystem::path dataset;
     enclosing how{.set = "taylor-model"};

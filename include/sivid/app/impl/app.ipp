@@ -157,6 +157,7 @@ public:
         add_identify();
         add_online();
         add_check();
+        add_certificate();
         add_diagnose();
         for (auto const what :
              {decision::predict, decision::verify, decision::control, decision::design})
@@ -528,6 +529,19 @@ private:
                            "not what its data prove.");
     }
 
+    void add_certificate() {
+        auto& c = certificate_;
+        auto* const s =
+            add(c, "certificate", "the result of `identify` for a checker in C that needs no sivid",
+                "result", [this, &c] { return run(of_, c); });
+        s->add_option("result", c.result, "folder with result.json and boxes.csv")->required();
+        s->add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
+        s->add_option("--out", c.out, "the file; not given: certificate.txt in that folder");
+        add_budget(*s, c.budget);
+        add_exit_codes(*s, "0 verdict and hull are certified, 2 bad input, or what no certificate "
+                           "can hold, 3 only a part is.");
+    }
+
     void add_diagnose() {
         auto& c = diagnose_;
         auto* const s =
@@ -788,6 +802,7 @@ private:
     identify_command identify_;
     online_command online_;
     check_command check_;
+    certificate_command certificate_;
     diagnose_command diagnose_;
     decision_command decision_;
     enclosing decision_how_{.set = "taylor-model"};

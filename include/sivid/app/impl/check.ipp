@@ -11,8 +11,11 @@
 #include <sivid/io/diagnosis_reader.hpp>
 #include <sivid/io/identification_reader.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/io/text/durable_file.hpp>
+#include <sivid/model/describe.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/verifier/certificate.hpp>
 #include <sivid/verifier/diagnosis_check.hpp>
 #include <sivid/verifier/identification_check.hpp>
 #ifdef SIVID_HAS_MPFI
@@ -210,6 +213,33 @@ SIVID_DECL int run(robot const& r, check_command const& c) {
     for (int const code : {refuted, undecided})
         if (first == code || second == code) return code;
     return done;
+}
+
+SIVID_DECL int run(robot const& r, certificate_command const& c) {
+    watch_interrupts();
+    auto const stored = read_identification(c.result);
+    auto const folder = data_of_result(c.result, c.dataset, stored.source_folder);
+    auto const data = read_data(r, folder);
+    auto problem = posed(r, data, stored.effects);
+    certificate_source source{folder, c.result / "result.json", "model", {}};
+    require_same_problem(problem, stored, source.result);
+    for (auto& e : problem.experiments) e.outliers = stored.budget.at(e.name);
+    bool const text = std::filesystem::is_regular_file(r.file);
+    source.model_text = text ? read_text(r.file) : describe(problem.model);
+    if (text) source.model_name = std::filesystem::path(r.file).filename().string();
+    certificate_limits limits;
+    limits.seconds = c.budget;
+    limits.keep_going = wanted;
+    auto const made = make_certificate(problem, data, stored, source, limits);
+    auto const file = c.out.empty() ? c.result / "certificate.txt" : c.out;
+    write_durably(file, made.text);
+    std::cout << title_of(data, stored.effects) << ": certificate of "
+              << (made.whole ? "the result\n" : "a part of the result\n");
+    for (auto const& words : made.claimed) std::cout << "  for the checker: " << words << "\n";
+    for (auto const& words : made.unproved) std::cout << "  not certified: " << words << "\n";
+    std::cout << "  " << made.excluded << " excluded boxes; written: " << file.string()
+              << "; check it by check_certificate, which does without sivid\n";
+    return made.whole ? done : undecided;
 }
 
 } // namespace sivid::app
