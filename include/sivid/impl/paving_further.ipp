@@ -3,6 +3,7 @@
 #define SIVID_IMPL_PAVING_FURTHER_IPP
 
 #include <sivid/paving/identifiability/impl/output_sensitivities.ipp>
+#include <sivid/paving/impl/confidence_region.ipp>
 #include <sivid/paving/impl/divisors.ipp>
 #include <sivid/paving/impl/identifiability.ipp>
 #include <sivid/paving/impl/online_identification.ipp>
