@@ -12,13 +12,14 @@ for all that is left.
 The module calls what the program ``sivid`` calls; results are the same files, which ``sivid check`` proves anew.
 """
 from ._core import Error, InternalError, version as __version__
-from .commands import check, control, design, diagnose, generate, identify, predict, rank, simulate, verify
+from .commands import check, confidence, control, design, diagnose, generate, identify, predict, rank, simulate, verify
 from .data import Data
 from .model import Model
-from .results import Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification
+from .results import Confidence, Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification
 from .tracing import clamp, deadband, number, where
 
 __all__ = [
+    "Confidence",
     "Data",
     "Design",
     "Diagnosis",
@@ -32,6 +33,7 @@ __all__ = [
     "Verification",
     "check",
     "clamp",
+    "confidence",
     "control",
     "deadband",
     "design",
