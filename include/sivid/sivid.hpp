@@ -38,6 +38,7 @@
 #include <sivid/measurement/dead_time.hpp>
 #include <sivid/measurement/error_bound.hpp>
 #include <sivid/measurement/limited_signal.hpp>
+#include <sivid/measurement/outliers_for.hpp>
 #include <sivid/measurement/played_signal.hpp>
 #include <sivid/measurement/quantisation.hpp>
 #include <sivid/measurement/record.hpp>
@@ -126,6 +127,9 @@
 #include <sivid/paving/bisection_test.hpp>
 #include <sivid/paving/bound_influence.hpp>
 #include <sivid/paving/complete.hpp>
+#include <sivid/paving/confidence/confidence_test.hpp>
+#include <sivid/paving/confidence/sign_perturbed_sums.hpp>
+#include <sivid/paving/confidence_region.hpp>
 #include <sivid/paving/contract/window_contraction.hpp>
 #include <sivid/paving/curve/curve_shapes.hpp>
 #include <sivid/paving/divisors.hpp>

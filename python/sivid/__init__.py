@@ -12,13 +12,27 @@ for all that is left.
 The module calls what the program ``sivid`` calls; results are the same files, which ``sivid check`` proves anew.
 """
 from ._core import Error, InternalError, version as __version__
-from .commands import certificate, check, control, design, diagnose, generate, identify, predict, rank, simulate, verify
+from .commands import (
+    certificate,
+    check,
+    confidence,
+    control,
+    design,
+    diagnose,
+    generate,
+    identify,
+    predict,
+    rank,
+    simulate,
+    verify,
+)
 from .data import Data
 from .model import Model
-from .results import Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification
+from .results import Confidence, Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification
 from .tracing import clamp, deadband, number, where
 
 __all__ = [
+    "Confidence",
     "Data",
     "Design",
     "Diagnosis",
@@ -33,6 +47,7 @@ __all__ = [
     "certificate",
     "check",
     "clamp",
+    "confidence",
     "control",
     "deadband",
     "design",

@@ -15,11 +15,12 @@ from typing import Union
 from . import _core
 from .data import Data
 from .model import Model
-from .results import Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification, Workplace
+from .results import Confidence, Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification, Workplace
 
 __all__ = [
     "certificate",
     "check",
+    "confidence",
     "control",
     "design",
     "diagnose",
@@ -63,6 +64,27 @@ def identify(
     effects = [effects] if isinstance(effects, str) else list(effects)
     words = ["identify", _data(model, data, place), *_words({"with": effects, "budget": budget, **options})]
     return _run(Identification, model, place, words, progress)
+
+
+def confidence(
+    model: Model,
+    data: Record,
+    probability: float = 0.95,
+    *,
+    out: File | None = None,
+    effects: Sequence[str] = (),
+    budget: float | None = None,
+    progress: Progress = None,
+    **options,
+) -> Confidence:
+    """The region in which the truth is with exactly this probability, if errors are independent and symmetric about
+    zero: their bounds are not used. As ``identify``; further options: ``seed`` of the random signs, ``sums``,
+    ``accuracy``.
+    """
+    place = _placed(out)
+    effects = [effects] if isinstance(effects, str) else list(effects)
+    options = {"probability": probability, "with": effects, "budget": budget, **options}
+    return _run(Confidence, model, place, ["confidence", _data(model, data, place), *_words(options)], progress)
 
 
 def diagnose(

@@ -14,7 +14,7 @@ import numpy as np
 
 from . import _core
 
-__all__ = ["Design", "Diagnosis", "Identification", "Prediction", "Ranking", "Result", "Verification"]
+__all__ = ["Confidence", "Design", "Diagnosis", "Identification", "Prediction", "Ranking", "Result", "Verification"]
 
 
 class Workplace:
@@ -259,6 +259,37 @@ class Design(Result):
         """The experiment (sivid-scenario-1), which ``predict`` and ``verify`` take, too."""
         file = self.folder / "scenario.json"
         return json.loads(file.read_text(encoding="utf-8")) if file.is_file() else None
+
+
+class Confidence(Result):
+    """The region in which the truth is with a stated probability: proved inside, undecided, all else proved outside."""
+
+    page, file = "confidence.html", "confidence.json"
+
+    @property
+    def probability(self) -> float:
+        """Exactly 1 - ``above`` / ``sums`` of ``to_json()``, over errors and random signs."""
+        return self.to_json()["probability"]
+
+    @property
+    def unknowns(self) -> list[str]:
+        """Names, in the order of all arrays: parameters, then starts that have a width."""
+        return list(self.to_json()["prior"])
+
+    @property
+    def hull(self) -> np.ndarray:
+        """Bounds of the region, shape (d, 2); NaN where nothing of the prior is in it."""
+        hull = self.to_json()["hull"]
+        return np.array([hull[name] or (None, None) for name in self.unknowns], float)
+
+    def boxes(self, kind: str) -> tuple[np.ndarray, np.ndarray]:
+        """Lower and upper corners, each of shape (n, d), of boxes that are ``inside``, ``undecided`` or ``pending``."""
+        if kind not in ("inside", "undecided", "pending"):
+            raise ValueError(f"there are no boxes {kind!r}: write inside, undecided or pending")
+        with open(self.folder / "confidence.csv", newline="", encoding="utf-8") as lines:
+            rows = [[float(x) for x in row[1:]] for row in csv.reader(lines) if row[0] == kind]
+        both = np.array(rows, float).reshape(len(rows), len(self.unknowns), 2)
+        return both[:, :, 0], both[:, :, 1]
 
 
 class Ranking(Result):

@@ -33,9 +33,10 @@ TEST_CASE("every command explains itself with an example") {
     auto const all = run({"--help"});
     CHECK(all.code == 0);
     CHECK_THAT(all.out, ContainsSubstring("A cup of tea"));
-    for (std::string const command : {"import", "simulate", "generate", "identify", "online",
-                                      "check", "certificate", "diagnose", "predict", "verify",
-                                      "control", "design", "rank", "report", "describe", "fleet"}) {
+    for (std::string const command :
+         {"import", "simulate", "generate", "identify", "online", "confidence", "check",
+          "certificate", "diagnose", "predict", "verify", "control", "design", "rank", "report",
+          "describe", "fleet"}) {
         CAPTURE(command);
         CHECK_THAT(all.out, ContainsSubstring(command));
         auto const one = run({command, "--help"});
@@ -72,11 +73,42 @@ TEST_CASE("a misspelt command, option or name is answered by the nearest one") {
     refused({"identify", s.data(), "--out", out, "--outliers", "many"}, "whole number or auto");
     refused({"identify", s.data(), "--out", out, "--outliers", "99"}, "allow fewer");
     refused({"identify", s.data(), "--out", out, "--budget", "nan"}, "nan is not a number");
+    refused({"identify", s.data(), "--out", out, "--outliers-for", "0.9"}, "go together");
+    refused(
+        {"identify", s.data(), "--out", out, "--outliers-for", "1.5", "--bound-probability", "0.9"},
+        "not within 0 to 1");
     refused({"rank", "--out", out}, "give a data set or --scenario");
     refused({"rank", "--scenario", "tea", "--out", out}, "--measure");
     refused({"fleet", "identify", s.data(), "--out", out, "--task", "3/2"}, "K from 1 to N");
     refused({"check", s.at("nowhere")}, "nowhere");
     refused({"report", s.data()}, "*.page.json");
+}
+
+TEST_CASE("a region with a stated probability, as page, JSON and table") {
+    served const s;
+    auto const out = s.at("region");
+    auto const r = run({"confidence", s.data(), "--out", out, "--quiet", "--seed", "7"});
+    CAPTURE(r.out, r.err);
+    CHECK(r.code == 0);
+    CHECK_THAT(r.out, ContainsSubstring("probability of 95 % (exactly 1 - 5/100)") &&
+                          ContainsSubstring("k in [") && ContainsSubstring("seed 7"));
+    CHECK(files_in(out) ==
+          std::set<std::string>{"confidence.csv", "confidence.html", "confidence.json"});
+    auto const stored = json_of(fs::path{out} / "confidence.json");
+    CHECK(stored["above"] == 5);
+    CHECK(stored["weights"].size() == stored["measured"].size());
+    CHECK(stored["hull"]["k"][0] < stored["hull"]["k"][1]);
+    CHECK_THAT(text_of(out + "/confidence.csv"), ContainsSubstring("inside,"));
+    CHECK_THAT(text_of(out + "/confidence.html"), ContainsSubstring("independent and symmetric"));
+    auto const odd = run({"confidence", s.data(), "--out", out, "--probability", "0.12345"});
+    CHECK(odd.code == 2);
+    CHECK_THAT(odd.err, ContainsSubstring("round it to four digits"));
+    auto const short_of_time = run({"confidence", s.data(), "--out", out, "--budget", "0"});
+    CHECK(short_of_time.code == 2);
+    CHECK_THAT(short_of_time.err, ContainsSubstring("allow more time"));
+    CHECK(run({"identify", s.data(), "--out", s.at("out"), "--quiet", "--bound-probability", "0.9",
+               "--outliers-for", "0.9"})
+              .code == 0);
 }
 
 TEST_CASE("from a scenario to a result, checked, shown anew and used") {

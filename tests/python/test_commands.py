@@ -47,6 +47,43 @@ def fed_data(decay=0.0, bound="0.02"):
     )
 
 
+class Regions(Case):
+    def test_a_region_with_a_stated_probability(self):
+        frame = growth_frame()
+        frame["mass"] += np.where(np.arange(len(frame["mass"])) % 3 == 0, 0.004, -0.002)
+        found = sivid.confidence(sivid.Model.read(GROWTH), growth_data(frame=frame), 0.9, seed=3, budget=2)
+        self.assertEqual(found.probability, 0.9)
+        stored = found.to_json()
+        self.assertEqual((stored["sums"], stored["above"], stored["seed"]), (100, 10, 3))
+        self.assertEqual(found.unknowns, ["r", "K", "x at the start of record"])
+        self.assertEqual(found.hull.shape, (3, 2))
+        low, high = found.boxes("inside")
+        self.assertTrue((low >= found.hull[:, 0]).all() and (high <= found.hull[:, 1]).all())
+        self.assertTrue(found.report(self.folder / "region.html").is_file())
+        self.assertTrue(any("symmetric" in words for words in found.assumptions))
+        self.refused("round it", lambda: sivid.confidence(found.model, growth_data(), 0.123456))
+        self.assertRaises(ValueError, found.boxes, "outside")
+        self.same_by_definition(stored)
+
+    def same_by_definition(self, stored):
+        """The signs of the seed, in another language: the least squares estimate is in the region."""
+        state = stored["seed"]
+
+        def draw():
+            nonlocal state
+            state = (state + 0x9E3779B97F4A7C15) % 2**64
+            z = (state ^ state >> 30) * 0xBF58476D1CE4E5B9 % 2**64
+            z = (z ^ z >> 27) * 0x94D049BB133111EB % 2**64
+            return z ^ z >> 31
+
+        weights, m = np.array(stored["weights"]), stored["sums"]
+        [draw() for _ in range(m)]
+        signs = np.array([[-1 if draw() >> 63 else 1 for _ in weights] for _ in range(m - 1)])
+        error = np.array(stored["measured"]) - np.mean(stored["measured"])  # of no model: surely not in the region
+        norms = np.linalg.norm((signs * error) @ weights, axis=1)
+        self.assertLess((norms > np.linalg.norm(error @ weights)).sum(), stored["above"])
+
+
 class AfterIdentification(Case):
     @classmethod
     def setUpClass(cls):

@@ -75,6 +75,15 @@ struct identify_command : search_command {
 struct online_command : search_command {};
 [[nodiscard]] SIVID_DECL int run(robot const& r, online_command const& c);
 
+/// `confidence`: a region in which the truth is with a stated probability.
+struct confidence_command : search_command {
+    double probability = 0.95;
+    std::uint64_t seed = 1; ///< of the signs
+    std::size_t sums = 100;
+    std::vector<std::string> nominal{}; ///< k=0.5, where the middle of the prior is not taken
+};
+[[nodiscard]] SIVID_DECL int run(robot const& r, confidence_command const& c);
+
 struct check_command : command {
     std::filesystem::path result;
     std::filesystem::path dataset; ///< empty: where the result says

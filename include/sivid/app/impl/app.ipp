@@ -156,6 +156,7 @@ public:
         add_generate();
         add_identify();
         add_online();
+        add_confidence();
         add_check();
         add_certificate();
         add_diagnose();
@@ -439,6 +440,12 @@ private:
         s->add_option("--threshold", threshold_,
                       "the outliers allowed as Algorithm 2 of the report prints them: with n "
                       "measurements ceil(n * threshold) - 1 in each scenario");
+        s->add_option("--bound-probability", bounds_hold_,
+                      "with which probability each bound holds, independently of the others, such "
+                      "as 0.997");
+        s->add_option("--outliers-for", outliers_for_,
+                      "allow in each scenario as many outliers as such bounds have with this "
+                      "probability, such as 0.99; proved");
         s->add_option("--algorithm", c.algorithm,
                       "contracting, or Algorithm 1 or 2 of the report of 2016, by bisection")
             ->check(CLI::IsMember({"contracting", "report-1", "report-2"}))
@@ -473,6 +480,14 @@ private:
 
     void read_outliers() {
         auto& c = identify_;
+        if (!bounds_hold_.empty() || !outliers_for_.empty()) {
+            if (bounds_hold_.empty() || outliers_for_.empty() || !outliers_.empty() ||
+                !threshold_.empty())
+                throw bad_request("--bound-probability and --outliers-for go together, without "
+                                  "--outliers and --threshold");
+            c.outliers = outlier_rule::chance(decimal_of(bounds_hold_, "--bound-probability"),
+                                              decimal_of(outliers_for_, "--outliers-for"));
+        }
         if (!threshold_.empty()) {
             if (!outliers_.empty()) throw bad_request("give --outliers or --threshold, not both");
             if (c.algorithm == "report-1")
@@ -503,6 +518,39 @@ private:
         add_search(*s, c);
         s->add_option("--outliers", outliers_,
                       "outliers allowed in each scenario, instead of the data set's own fraction");
+    }
+
+    void add_confidence() {
+        auto& c = confidence_;
+        auto* const s =
+            add(c, "confidence",
+                "the region in which the truth is with a stated probability, without "
+                "error bounds: for independent errors, symmetric about zero",
+                "data --probability 0.95 --out region", [this, &c] { return run(of_, c); });
+        s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
+        s->add_option("--probability", c.probability, "a fraction, of at most four digits")
+            ->capture_default_str();
+        s->add_option("--seed", c.seed, "of random signs: not to be chosen by what comes out")
+            ->capture_default_str();
+        s->add_option("--nominal", c.nominal,
+                      "likely values of unknowns, such as k=0.5, known without these data: the "
+                      "nearer the truth, the smaller the region. Else the middles of priors")
+            ->delimiter(',');
+        s->add_option("--sums", c.sums,
+                      "sums that are compared, at least: the more, the less the "
+                      "region depends on the seed")
+            ->check(CLI::Range(2, 10'000))
+            ->capture_default_str();
+        add_out(*s, c, "confidence.html, confidence.json and confidence.csv")->required();
+        s->add_option("--with", c.effects, "effects to join to the model, separated by commas")
+            ->delimiter(',');
+        add_enclosing(*s, c.how);
+        s->add_option("--accuracy", c.accuracy,
+                      "least width of boxes that are split, as a share of what is left")
+            ->check(number_between(1e-15, 1.0));
+        add_budget(*s, c.budget, "seconds");
+        add_exit_codes(*s, "0 the search came to its end, 2 bad input, or a problem that the "
+                           "theorem does not cover, 3 a budget ended it.");
     }
 
     void add_check() {
@@ -801,6 +849,7 @@ private:
     generate_command generate_;
     identify_command identify_;
     online_command online_;
+    confidence_command confidence_;
     check_command check_;
     certificate_command certificate_;
     diagnose_command diagnose_;
@@ -812,7 +861,7 @@ private:
     fleet_command fleet_;
     std::string fleet_of_, fleet_task_, fleet_options_;
     std::optional<double> fleet_budget_;
-    std::string relative_, outliers_, threshold_;
+    std::string relative_, outliers_, threshold_, bounds_hold_, outliers_for_;
     std::vector<std::string> absolute_, unknown_, set_;
     bool combined_ = false, hold_ = false;
     std::function<int()> action_;

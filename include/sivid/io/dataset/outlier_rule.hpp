@@ -3,6 +3,7 @@
 #define SIVID_IO_DATASET_OUTLIER_RULE_HPP
 
 #include <sivid/io/text/exact_decimal.hpp>
+#include <sivid/measurement/outliers_for.hpp>
 
 #include <cstddef>
 #include <stdexcept>
@@ -38,10 +39,21 @@ public:
         return {kind::threshold, std::move(h)};
     }
 
+    /// As many as are violated with at most the rest of the probability `wanted`, if each bound
+    /// holds with probability `each`, independently: `outliers_for`.
+    /// @throws std::invalid_argument for what is not within 0 to 1
+    [[nodiscard]] static outlier_rule chance(exact_decimal each, exact_decimal wanted) {
+        outlier_rule rule{kind::chance, std::move(each)};
+        rule.wanted_ = std::move(wanted);
+        static_cast<void>(rule.of(1)); // refuses
+        return rule;
+    }
+
     /// Of n measurements.
     /// @given  n f below 1e18
     [[nodiscard]] std::size_t of(std::size_t n) const {
         if (kind_ == kind::count) return count_;
+        if (kind_ == kind::chance) return outliers_for(n, *enclose(number_), *enclose(wanted_));
         auto const product = number_.times(n);
         auto const below = product.floor();
         if (kind_ == kind::share) return below;
@@ -50,12 +62,12 @@ public:
     }
 
 private:
-    enum class kind { count, share, threshold };
+    enum class kind { count, share, threshold, chance };
     outlier_rule(kind k, exact_decimal number) : kind_{k}, number_{std::move(number)} {}
 
     kind kind_ = kind::count;
     std::size_t count_ = 0;
-    exact_decimal number_;
+    exact_decimal number_, wanted_;
 };
 
 } // namespace sivid
