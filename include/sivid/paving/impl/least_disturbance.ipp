@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_PAVING_IMPL_LEAST_DISTURBANCE_IPP
+#define SIVID_PAVING_IMPL_LEAST_DISTURBANCE_IPP
+
+#include <sivid/paving/least_disturbance.hpp>
+
+#include <sivid/approximate/fit/fit.hpp>
+#include <sivid/number/guard.hpp>
+#include <sivid/number/text/nearest_text.hpp>
+#include <sivid/paving/disturbance/detail/disturbance_program.hpp>
+#include <sivid/paving/disturbance/detail/disturbance_witness.hpp>
+#include <sivid/paving/disturbance/detail/disturbed_motion.hpp>
+#include <sivid/paving/disturbance/detail/weighted_motion.hpp>
+#include <sivid/paving/relation/relation_contraction.hpp>
+#include <sivid/work_limit.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace sivid {
+
+namespace paving_detail {
+
+/// One bounding of the least disturbance of one problem.
+class least_disturbance_work {
+    using traits = interval_traits<interval>;
+
+public:
+    least_disturbance_work(identification_problem const& problem, disturbance_set const& set,
+                           least_disturbance_options const& options)
+        : problem_(&problem),
+          set_(&set),
+          options_(&options),
+          limit_(options.seconds, options.keep_going),
+          motions_(problem, set),
+          witness_(problem, set, motions_, limit_) {}
+
+    [[nodiscard]] disturbance_bound operator()() {
+        segments_ = witness_.segments(options_->segments);
+        seek_witness();
+        auto prior = left_at_most();
+        if (prior) seek_lower(*prior);
+        result_.hull = prior ? *prior : problem_->prior;
+        double const lower = std::min(lower_, upper_);
+        result_.size = traits::bounds(lower, upper_);
+        if (!(lower > 0)) result_.needed.clear();
+        result_.boxes = boxes_;
+        result_.seconds = watch_.spent();
+        say_assumptions();
+        return std::move(result_);
+    }
+
+private:
+    /// A part of the prior, and what is proved of it.
+    struct part {
+        box set;
+        double lower = 0;
+        std::vector<double> influence;
+        std::vector<disturbed_stretch> needed;
+    };
+
+    void seek_witness() {
+        work_limit const own(0.4 * options_->seconds, limit_);
+        auto fit = sivid::fit(*problem_, fit_norm::largest, {}, own);
+        if (fit.parameters.size() != problem_->prior.size() ||
+            fit.starts.size() != problem_->experiments.size()) {
+            fit.parameters = mid(problem_->prior);
+            fit.starts.clear();
+            for (auto const& e : problem_->experiments) fit.starts.push_back(mid(e.initial));
+        }
+        auto guess = witness_.improve(witness_.without(fit, segments_), segments_);
+        try_witness(guess);
+        likely_ = guess.size;
+    }
+    void try_witness(disturbance_guess const& guess) {
+        double size = 0;
+        auto test = limited(options_->test, limit_);
+        if (!(guess.violation < 1)) return;
+        auto found = witness_.verify(guess, segments_, test, size);
+        if (!found || !(size < upper_)) return;
+        upper_ = size;
+        result_.witness = std::move(found);
+        result_.pieces = witness_.pieces(guess, segments_);
+    }
+    /// What equations leave of the prior where disturbances are no larger than the witness's;
+    /// nothing where that is no bound.
+    [[nodiscard]] std::optional<box> left_at_most() {
+        if (upper_ == 0) return std::nullopt;
+        level_ = std::isfinite(upper_) ? upper_ : 4 * std::max(likely_, 1e-6);
+        if (!std::isfinite(level_)) return problem_->prior;
+        relation_contraction_options how;
+        work_limit const own(0.2 * options_->seconds, limit_);
+        how.keep_going = own;
+        how.rounds = 4;
+        auto const left = contract_by_relations(with_disturbance(*problem_, *set_, level_), how);
+        if (!is_empty(left)) return left;
+        lower_ = level_; // only where there is no witness
+        result_.needed = whole_records();
+        return std::nullopt;
+    }
+    [[nodiscard]] std::vector<disturbed_stretch> whole_records() const {
+        std::vector<disturbed_stretch> all;
+        for (std::size_t s = 0; s < problem_->experiments.size(); ++s)
+            all.push_back({s, motions_.times(s).front(), motions_.times(s).back()});
+        return all;
+    }
+
+    /// Halves the part of the least bound, until that is near the witness's size.
+    void seek_lower(box const& prior) {
+        std::vector<part> open{bounded({prior, 0, {}, {}})};
+        auto const less = [](part const& a, part const& b) { return a.lower > b.lower; };
+        while (boxes_ < options_->boxes && limit_() &&
+               open.front().lower < (1 - options_->relative_width) * level_) {
+            auto const side = side_to_halve(open.front());
+            if (side == prior.size()) break;
+            std::pop_heap(open.begin(), open.end(), less);
+            auto const whole = std::move(open.back());
+            open.pop_back();
+            auto halves = bisect(whole.set, side, mid(whole.set[side]));
+            for (auto* half : {&halves.first, &halves.second}) {
+                open.push_back(bounded({*half, whole.lower, {}, whole.needed}));
+                std::push_heap(open.begin(), open.end(), less);
+            }
+        }
+        // What holds for no part below its bound holds for disturbances up to `level_`.
+        lower_ = std::min(open.front().lower, level_);
+        for (auto const& p : open) join(p.needed);
+    }
+    void join(std::vector<disturbed_stretch> const& more) {
+        for (auto const& m : more) {
+            auto const known =
+                std::find_if(result_.needed.begin(), result_.needed.end(),
+                             [&](auto const& k) { return k.experiment == m.experiment; });
+            if (known == result_.needed.end()) {
+                result_.needed.push_back(m);
+                continue;
+            }
+            known->from = std::min(known->from, m.from);
+            known->to = std::max(known->to, m.to);
+        }
+    }
+    [[nodiscard]] std::size_t side_to_halve(part const& p) const {
+        std::size_t side = p.set.size();
+        double most = 0;
+        for (std::size_t j = 0; j < p.set.size(); ++j) {
+            double const share = width(p.set[j]) / std::max(width(problem_->prior[j]), 1e-300);
+            if (!(share > 1e-6)) continue;
+            double const worth = (j < p.influence.size() ? p.influence[j] : 0) + 1e-12 * share;
+            if (worth > most) {
+                most = worth;
+                side = j;
+            }
+        }
+        return side;
+    }
+    /// Bounds a part from below by the weights that a program finds for it.
+    [[nodiscard]] part bounded(part p) {
+        ++boxes_;
+        std::vector<disturbed_motion> motions;
+        std::vector<plain_motion> plain;
+        program_room room;
+        for (auto const& side : p.set)
+            room.parameters.push_back(traits::sub(side, traits::point(mid(side))));
+        for (std::size_t s = 0; s < motions_.experiments(); ++s) {
+            motions.push_back(motions_.within(s, p.set, level_));
+            plain.emplace_back(motions.back());
+            room.starts.push_back(motions.back().beside.front());
+        }
+        auto const found = disturbance_program(motions, plain, *set_, segments_, room)(limit_);
+        weighted_motion sum(*set_, p.set);
+        std::vector<disturbed_stretch> needed;
+        for (std::size_t s = 0; s < found.weights.size(); ++s) {
+            sum.add(motions[s], plain[s], found.weights[s]);
+            add_stretch(s, motions[s], plain[s], found.weights[s], needed);
+        }
+        auto const proved = sum.proved();
+        p.influence = proved.influence;
+        if (proved.lower > p.lower) {
+            p.lower = proved.lower;
+            p.needed = std::move(needed);
+        }
+        return p;
+    }
+    /// From where weights act to the last sample that has one.
+    void add_stretch(std::size_t s, disturbed_motion const& motion, plain_motion const& plain,
+                     std::vector<double> const& weights, std::vector<disturbed_stretch>& to) const {
+        (void)plain;
+        std::size_t last = 0;
+        bool any = false;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            if (weights[i] == 0) continue;
+            any = true;
+            last = std::max(last, motion.samples[i].node);
+        }
+        if (any) to.push_back({s, motions_.times(s).front(), motions_.times(s)[last]});
+    }
+    void say_assumptions() {
+        result_.assumptions = {"measurements within their stated bounds",
+                               input_assumption(problem_->experiments)};
+    }
+
+    stopwatch watch_;
+    identification_problem const* problem_;
+    disturbance_set const* set_;
+    least_disturbance_options const* options_;
+    work_limit limit_;
+    disturbed_motions motions_;
+    disturbance_witness witness_;
+    segment_begins segments_;
+    double lower_ = 0, upper_ = detail::infinity;
+    double likely_ = 0; ///< an estimate
+    double level_ = 0;  ///< up to which lower bounds are proved
+    std::size_t boxes_ = 0;
+    disturbance_bound result_;
+};
+
+} // namespace paving_detail
+
+SIVID_DECL disturbance_bound least_disturbance(identification_problem const& problem,
+                                               disturbance_set const& set,
+                                               least_disturbance_options const& options) {
+    require_sound_environment();
+    problem.require_data();
+    require_valid(set, problem.model);
+    for (auto const& e : problem.experiments)
+        if (e.outliers > 0)
+            throw std::invalid_argument("least disturbance: experiment '" + e.name +
+                                        "' allows outliers, which are not covered; allow none, or "
+                                        "disturb the channel instead");
+    return paving_detail::least_disturbance_work(problem, set, options)();
+}
+
+} // namespace sivid
+
+#endif
