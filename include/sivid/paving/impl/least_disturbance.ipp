@@ -10,12 +10,14 @@
 #include <sivid/paving/disturbance/detail/disturbance_program.hpp>
 #include <sivid/paving/disturbance/detail/disturbance_witness.hpp>
 #include <sivid/paving/disturbance/detail/disturbed_motion.hpp>
+#include <sivid/paving/disturbance/detail/narrowed_tube.hpp>
 #include <sivid/paving/disturbance/detail/weighted_motion.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -40,9 +42,8 @@ public:
     [[nodiscard]] disturbance_bound operator()() {
         segments_ = witness_.segments(options_->segments);
         seek_witness();
-        auto prior = left_at_most();
-        if (prior) seek_lower(*prior);
-        result_.hull = prior ? *prior : problem_->prior;
+        result_.hull = problem_->prior;
+        if (upper_ > 0) bound_below();
         double const lower = std::min(lower_, upper_);
         result_.size = traits::bounds(lower, upper_);
         if (!(lower > 0)) result_.needed.clear();
@@ -59,6 +60,7 @@ private:
         double lower = 0;
         std::vector<double> influence;
         std::vector<disturbed_stretch> needed;
+        std::shared_ptr<std::vector<motion_tube> const> tubes; ///< of the part that it is of
     };
 
     void seek_witness() {
@@ -72,7 +74,6 @@ private:
         }
         auto guess = witness_.improve(witness_.without(fit, segments_), segments_);
         try_witness(guess);
-        likely_ = guess.size;
     }
     void try_witness(disturbance_guess const& guess) {
         double size = 0;
@@ -84,21 +85,47 @@ private:
         result_.witness = std::move(found);
         result_.pieces = witness_.pieces(guess, segments_);
     }
-    /// What equations leave of the prior where disturbances are no larger than the witness's;
-    /// nothing where that is no bound.
-    [[nodiscard]] std::optional<box> left_at_most() {
-        if (upper_ == 0) return std::nullopt;
-        level_ = std::isfinite(upper_) ? upper_ : 4 * std::max(likely_, 1e-6);
-        if (!std::isfinite(level_)) return problem_->prior;
+    /// Searches up to the witness's size; where its motions are too wide to say much, up to less.
+    void bound_below() {
+        level_ = std::isfinite(upper_) ? upper_ : usual_size();
+        for (int round = 0; round < 8 && limit_(); ++round) {
+            auto const prior = left_at_level();
+            if (round == 0 && prior && level_ >= upper_) result_.hull = *prior;
+            if (prior) {
+                seek_lower(*prior);
+            } else { // only where there is no witness
+                lower_ = level_;
+                result_.needed = whole_records();
+            }
+            bool const all = lower_ >= (1 - 1e-9) * level_;
+            if (all && level_ < upper_ && !(lower_ > 0.4 * upper_)) {
+                level_ *= std::isfinite(upper_) ? 1.6 : 4;
+            } else if (lower_ > 0.4 * level_ || boxes_ >= options_->boxes) {
+                break;
+            } else {
+                level_ /= 2.5;
+                if (level_ <= lower_) break;
+            }
+        }
+    }
+    /// What a program says of the motions without disturbances, where there is no witness.
+    [[nodiscard]] double usual_size() {
+        part all{problem_->prior, 0, {}, {}, nullptr};
+        std::vector<motion_tube> tubes;
+        for (std::size_t s = 0; s < motions_.experiments(); ++s)
+            tubes.push_back(motions_.tube(s, all.set, 0));
+        double const size = weigh(all, tubes);
+        return std::isfinite(size) && size > 0 ? size : 1;
+    }
+    /// What equations leave of the prior where disturbances are no larger than the level; nothing
+    /// where that is no bound.
+    [[nodiscard]] std::optional<box> left_at_level() const {
         relation_contraction_options how;
-        work_limit const own(0.2 * options_->seconds, limit_);
+        work_limit const own(0.1 * options_->seconds, limit_);
         how.keep_going = own;
         how.rounds = 4;
-        auto const left = contract_by_relations(with_disturbance(*problem_, *set_, level_), how);
-        if (!is_empty(left)) return left;
-        lower_ = level_; // only where there is no witness
-        result_.needed = whole_records();
-        return std::nullopt;
+        auto left = contract_by_relations(with_disturbance(*problem_, *set_, level_), how);
+        return is_empty(left) ? std::nullopt : std::optional(std::move(left));
     }
     [[nodiscard]] std::vector<disturbed_stretch> whole_records() const {
         std::vector<disturbed_stretch> all;
@@ -107,25 +134,32 @@ private:
         return all;
     }
 
-    /// Halves the part of the least bound, until that is near the witness's size.
+    /// Halves the part of the least bound, until that is near the level. Where half of some
+    /// parts say nothing, smaller ones will not soon.
     void seek_lower(box const& prior) {
-        std::vector<part> open{bounded({prior, 0, {}, {}})};
+        std::vector<part> open{bounded({prior, 0, {}, {}, nullptr})};
         auto const less = [](part const& a, part const& b) { return a.lower > b.lower; };
-        while (boxes_ < options_->boxes && limit_() &&
-               open.front().lower < (1 - options_->relative_width) * level_) {
+        auto const begun = boxes_;
+        while (boxes_ < options_->boxes && limit_() && open.front().lower < enough()) {
             auto const side = side_to_halve(open.front());
             if (side == prior.size()) break;
+            auto const silent = static_cast<std::size_t>(std::count_if(
+                open.begin(), open.end(), [](part const& p) { return !(p.lower > 0); }));
+            if (boxes_ - begun > 12 && 2 * silent > open.size()) break;
             std::pop_heap(open.begin(), open.end(), less);
             auto const whole = std::move(open.back());
             open.pop_back();
             auto halves = bisect(whole.set, side, mid(whole.set[side]));
             for (auto* half : {&halves.first, &halves.second}) {
-                open.push_back(bounded({*half, whole.lower, {}, whole.needed}));
+                open.push_back(bounded({*half, whole.lower, {}, whole.needed, whole.tubes}));
                 std::push_heap(open.begin(), open.end(), less);
             }
         }
         // What holds for no part below its bound holds for disturbances up to `level_`.
-        lower_ = std::min(open.front().lower, level_);
+        double const proved = std::min(open.front().lower, level_);
+        if (!(proved > lower_)) return;
+        lower_ = proved;
+        result_.needed.clear();
         for (auto const& p : open) join(p.needed);
     }
     void join(std::vector<disturbed_stretch> const& more) {
@@ -155,17 +189,38 @@ private:
         }
         return side;
     }
-    /// Bounds a part from below by the weights that a program finds for it.
+    /// Bounds a part from below, by tubes that are narrowed where that has helped.
     [[nodiscard]] part bounded(part p) {
         ++boxes_;
+        std::vector<motion_tube> tubes;
+        for (std::size_t s = 0; s < motions_.experiments(); ++s) {
+            tubes.push_back(motions_.tube(s, p.set, level_));
+            if (p.tubes) tubes[s].narrow((*p.tubes)[s]);
+        }
+        weigh(p, tubes);
+        double best = p.lower;
+        for (int round = 0; round < 3 && limit_() && p.lower < enough(); ++round) {
+            for (std::size_t s = 0; s < tubes.size(); ++s)
+                tubes[s] = narrowed_tube(motions_.within(s, tubes[s], p.set, level_), tubes[s],
+                                         *set_, p.set, level_, limit_);
+            weigh(p, tubes);
+            if (!(p.lower > 1.05 * best)) break;
+            best = p.lower;
+        }
+        p.tubes = std::make_shared<std::vector<motion_tube> const>(std::move(tubes));
+        return p;
+    }
+    [[nodiscard]] double enough() const { return (1 - options_->relative_width) * level_; }
+    /// By the weights that a program finds. @returns  the size that it finds, an estimate
+    double weigh(part& p, std::vector<motion_tube> const& tubes) {
         std::vector<disturbed_motion> motions;
         std::vector<plain_motion> plain;
         program_room room;
         for (auto const& side : p.set)
             room.parameters.push_back(traits::sub(side, traits::point(mid(side))));
-        for (std::size_t s = 0; s < motions_.experiments(); ++s) {
-            motions.push_back(motions_.within(s, p.set, level_));
-            plain.emplace_back(motions.back());
+        for (std::size_t s = 0; s < tubes.size(); ++s) {
+            motions.push_back(motions_.within(s, tubes[s], p.set, level_));
+            plain.emplace_back(motions.back(), room.parameters);
             room.starts.push_back(motions.back().beside.front());
         }
         auto const found = disturbance_program(motions, plain, *set_, segments_, room)(limit_);
@@ -173,7 +228,7 @@ private:
         std::vector<disturbed_stretch> needed;
         for (std::size_t s = 0; s < found.weights.size(); ++s) {
             sum.add(motions[s], plain[s], found.weights[s]);
-            add_stretch(s, motions[s], plain[s], found.weights[s], needed);
+            add_stretch(s, motions[s], found.weights[s], needed);
         }
         auto const proved = sum.proved();
         p.influence = proved.influence;
@@ -181,12 +236,11 @@ private:
             p.lower = proved.lower;
             p.needed = std::move(needed);
         }
-        return p;
+        return found.size;
     }
     /// From where weights act to the last sample that has one.
-    void add_stretch(std::size_t s, disturbed_motion const& motion, plain_motion const& plain,
+    void add_stretch(std::size_t s, disturbed_motion const& motion,
                      std::vector<double> const& weights, std::vector<disturbed_stretch>& to) const {
-        (void)plain;
         std::size_t last = 0;
         bool any = false;
         for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -210,7 +264,6 @@ private:
     disturbance_witness witness_;
     segment_begins segments_;
     double lower_ = 0, upper_ = detail::infinity;
-    double likely_ = 0; ///< an estimate
     double level_ = 0;  ///< up to which lower bounds are proved
     std::size_t boxes_ = 0;
     disturbance_bound result_;

@@ -65,9 +65,14 @@ public:
                         std::vector<plain_motion> const& plain, disturbance_set const& set,
                         segment_begins const& segments, program_room const& room)
         : shared_(static_cast<index>(room.parameters.size()) + 1),
-          driven_(static_cast<index>(set.equations.size())) {
-        scale_ = vector::Zero(driven_);
-        for (index q = 0; q < driven_; ++q)
+          disturbed_(static_cast<index>(set.equations.size())),
+          driven_(disturbed_) {
+        // What is left open drives each state, too, within bounds of its own.
+        if (!plain.empty() && !plain[0].cells.empty()) driven_ += plain[0].cells[0].left.size();
+        sized_ = vector::Zero(driven_);
+        sized_.head(disturbed_).setOnes();
+        scale_ = vector::Zero(disturbed_);
+        for (index q = 0; q < disturbed_; ++q)
             scale_[q] = set.equations[static_cast<std::size_t>(q)].scale;
         choose_units(plain, set, room);
         for (std::size_t s = 0; s < motions.size(); ++s)
@@ -96,6 +101,43 @@ public:
             follow();
         }
         return read();
+    }
+
+    /// For `weights_for`: how a state is best estimated where disturbances are of a size.
+    /// @param lasting  segments in which disturbances add up as if they were one
+    [[nodiscard]] bool prepare(double size, double lasting) {
+        for_each_row([](row& r, double) { r.stiff = 1, r.push = 0; });
+        double const ratio = std::max(size / unit_, 1e-12);
+        for (auto& c : chains_)
+            for (auto& g : c.segments)
+                for (auto* side : {&g.above, &g.below})
+                    for (std::size_t q = 0; q < side->size(); ++q)
+                        (*side)[q].stiff =
+                            (sized_[static_cast<index>(q)] > 0 ? 1 / (ratio * ratio) : 1) / lasting;
+        global_.back().stiff = 1e12 * (1 + 1 / (ratio * ratio)); // W stays
+        return factor_all();
+    }
+    /// Weights of the measurements of one experiment that nearly cancel a state at the begin of a
+    /// segment: those of the least squares estimate of it.
+    [[nodiscard]] std::vector<double> weights_for(std::size_t s, std::size_t segment,
+                                                  std::size_t state) {
+        auto& c = chains_[s];
+        target_ = {segment, static_cast<index>(state)};
+        vector side = vector::Zero(shared_);
+        backward(c, side, true);
+        beta_move_ = shared_cost_.solve(-side);
+        forward(c);
+        std::vector<double> result(c.samples, 0.0);
+        vector x = c.unit.cwiseProduct(c.move);
+        for (std::size_t k = 0; k <= c.segments.size(); ++k) {
+            for (auto const& m : c.at[k])
+                result[m.name] = (m.above.stiff + m.below.stiff) *
+                                 (m.by_state.dot(x) + m.by_shared.dot(beta_move_)) / m.size;
+            if (k == c.segments.size()) break;
+            auto const& g = c.segments[k];
+            x = g.step * x + g.by_shared * beta_move_ + g.kick * g.move;
+        }
+        return result;
     }
 
 private:
@@ -208,7 +250,9 @@ private:
                 result.by_shared.col(j) +=
                     parameter_unit_[j] * (cell.kick * cell.by_parameter.col(j));
             result.kick = cell.step * result.kick;
-            for (index q = 0; q < driven_; ++q) {
+            for (index q = disturbed_; q < driven_; ++q)
+                result.kick(q - disturbed_, q) += cell.length * cell.left[q - disturbed_];
+            for (index q = 0; q < disturbed_; ++q) {
                 auto const& e = set.equations[static_cast<std::size_t>(q)];
                 result.kick.col(q) +=
                     e.scale * unit_ * cell.kick.col(static_cast<index>(e.index));
@@ -217,6 +261,9 @@ private:
         }
         result.above.resize(static_cast<std::size_t>(driven_));
         result.below.resize(static_cast<std::size_t>(driven_));
+        for (auto* side : {&result.above, &result.below})
+            for (auto q = static_cast<std::size_t>(disturbed_); q < side->size(); ++q)
+                (*side)[q].reach = 1;
         result.d = vector::Zero(driven_);
         return result;
     }
@@ -264,8 +311,8 @@ private:
                 vector const& d = steps ? g.move : g.d;
                 for (index q = 0; q < driven_; ++q) {
                     auto const j = static_cast<std::size_t>(q);
-                    f(g.above[j], d[q] - shared[shared_ - 1]);
-                    f(g.below[j], -d[q] - shared[shared_ - 1]);
+                    f(g.above[j], d[q] - sized_[q] * shared[shared_ - 1]);
+                    f(g.below[j], -d[q] - sized_[q] * shared[shared_ - 1]);
                 }
                 x = g.step * x + g.by_shared * shared + g.kick * d;
             }
@@ -306,6 +353,9 @@ private:
     /// The Riccati recursion of all experiments with the stiffness of the rows.
     [[nodiscard]] bool factor() {
         for_each_row([](row& r, double) { r.stiff = r.multiplier / r.slack; });
+        return factor_all();
+    }
+    [[nodiscard]] bool factor_all() {
         matrix total = matrix::Zero(shared_, shared_);
         for (index j = 0; j + 1 < shared_; ++j)
             total(j, j) += global_[static_cast<std::size_t>(2 * j)].stiff +
@@ -335,8 +385,8 @@ private:
                     auto const j = static_cast<std::size_t>(q);
                     double const up = g.above[j].stiff, down = g.below[j].stiff;
                     own(q, q) += up + down;
-                    cross(q, last) += down - up;
-                    p(last, last) += up + down;
+                    cross(q, last) += sized_[q] * (down - up);
+                    p(last, last) += sized_[q] * (up + down);
                 }
                 if (driven_ > 0) {
                     g.inverse = approximate_inverse(own);
@@ -389,7 +439,8 @@ private:
             r.multiplier_step = r.push - r.multiplier + r.stiff * r.step;
         });
     }
-    void backward(chain& c, vector& side) const {
+    /// @param aimed  with the target for a goal
+    void backward(chain& c, vector& side, bool aimed = false) const {
         auto const all = c.n + shared_;
         vector p = vector::Zero(all);
         for (auto k = c.segments.size() + 1; k-- > 0;) {
@@ -402,7 +453,7 @@ private:
                 for (index q = 0; q < driven_; ++q) {
                     auto const j = static_cast<std::size_t>(q);
                     own[q] += g.above[j].push - g.below[j].push;
-                    next[all - 1] -= g.above[j].push + g.below[j].push;
+                    next[all - 1] -= sized_[q] * (g.above[j].push + g.below[j].push);
                 }
                 if (driven_ > 0) {
                     g.offset = -g.inverse * own;
@@ -410,9 +461,10 @@ private:
                 }
                 p = std::move(next);
             }
+            if (aimed && target_.first == k) p[target_.second] += 1;
             for (auto const& s : c.at[k]) {
-                p += s.above.push * entries(s, true, c.n);
-                p += s.below.push * entries(s, false, c.n);
+                if (s.above.push != 0) p += s.above.push * entries(s, true, c.n);
+                if (s.below.push != 0) p += s.below.push * entries(s, false, c.n);
             }
         }
         vector own = c.unit.cwiseProduct(p.head(c.n));
@@ -476,10 +528,10 @@ private:
         for (auto const& c : chains_) {
             vector const x0 = c.unit.cwiseProduct(c.x0);
             to.starts.emplace_back(x0.data(), x0.data() + x0.size());
-            auto& own = to.disturbances.emplace_back(static_cast<std::size_t>(driven_));
+            auto& own = to.disturbances.emplace_back(static_cast<std::size_t>(disturbed_));
             for (auto const& g : c.segments) {
                 to.finite = to.finite && g.d.allFinite();
-                for (index q = 0; q < driven_; ++q)
+                for (index q = 0; q < disturbed_; ++q)
                     own[static_cast<std::size_t>(q)].push_back(g.d[q] * unit_ * scale_[q]);
             }
             auto& weights = to.weights.emplace_back(c.samples, 0.0);
@@ -490,14 +542,16 @@ private:
         return to;
     }
 
-    index shared_, driven_; ///< parameters and the size; disturbed equations
-    vector scale_;          ///< of these
+    index shared_;             ///< parameters and the size
+    index disturbed_, driven_; ///< disturbed equations; with what is left open
+    vector sized_, scale_;     ///< of what drives: 1 where the size is its bound; its scale
     double unit_ = 1;       ///< of sizes
     vector parameter_unit_, beta_, beta_move_;
     std::vector<chain> chains_;
     std::vector<row> global_; ///< sides of parameters, then that of the size
     std::size_t rows_ = 0;
     double infeasible_ = 0;
+    std::pair<std::size_t, index> target_{0, 0}; ///< segment, state
     approximate_cholesky shared_cost_;
 };
 

@@ -9,6 +9,7 @@
 #include <sivid/paving/disturbance/detail/disturbed_motion.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/judge/witness.hpp>
+#include <sivid/paving/least_disturbance.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -47,7 +47,20 @@ struct disturbed_motion {
     std::vector<box> beside;
     std::vector<disturbed_cell> cells;
     std::vector<disturbed_sample> samples;
-    double begin = 0;
+};
+
+/// Where the states are at the nodes, and over the cells between.
+struct motion_tube {
+    std::vector<box> at, over;
+
+    /// What both say.
+    void narrow(motion_tube const& known) {
+        for (std::size_t k = 0; k < at.size(); ++k) narrow(at[k], known.at[k]);
+        for (std::size_t k = 0; k < over.size(); ++k) narrow(over[k], known.over[k]);
+    }
+    static void narrow(box& x, box const& known) {
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = agreed(x[i], known[i]);
+    }
 };
 
 /// The motions of a problem around lines: of all that keep the bounds of the measured states with
@@ -86,33 +99,37 @@ public:
     /// The measurements in the order of their samples.
     [[nodiscard]] record const& measured(std::size_t s) const { return grids_[s].measured; }
 
-    /// Around the middle of where the states can be, for parameters of a box and disturbances up to
-    /// `size`.
-    [[nodiscard]] disturbed_motion within(std::size_t s, box const& parameters,
-                                          double size) const {
+    /// Where the states of all motions can be that keep the bounds of measured states, for
+    /// parameters of a box and disturbances up to `size`.
+    [[nodiscard]] motion_tube tube(std::size_t s, box const& parameters, double size) const {
         auto const e = disturbed(s, size);
         motion_cells const known(driven_, parameters, e, shown_, false, sums_);
         auto const reach = known.enclosures();
         auto const& grid = grids_[s];
         auto const n = states();
-        std::vector<box> at, over;
+        motion_tube result;
         for (auto const t : grid.times) {
-            auto& x = at.emplace_back(n);
+            auto& x = result.at.emplace_back(n);
             for (std::size_t i = 0; i < n; ++i) x[i] = known.over(reach, i, t, t);
         }
         for (std::size_t c = 0; c < known.size(); ++c) {
-            narrow_at(grid, known[c].from, reach.at[c], at);
-            narrow_at(grid, known[c].to, reach.at[c + 1], at);
+            narrow_at(grid, known[c].from, reach.at[c], result.at);
+            narrow_at(grid, known[c].to, reach.at[c + 1], result.at);
         }
-        for (std::size_t i = 0; i < n; ++i) at[0][i] = agreed(at[0][i], e.initial[i]);
+        motion_tube::narrow(result.at[0], e.initial);
         for (std::size_t k = 0; k + 1 < grid.times.size(); ++k) {
-            auto& x = over.emplace_back(n);
+            auto& x = result.over.emplace_back(n);
             for (std::size_t i = 0; i < n; ++i)
                 x[i] = known.over(reach, i, grid.times[k], grid.times[k + 1]);
         }
+        return result;
+    }
+    /// Around the middle of a tube.
+    [[nodiscard]] disturbed_motion within(std::size_t s, motion_tube const& tube,
+                                          box const& parameters, double size) const {
         std::vector<std::vector<double>> line;
-        for (auto const& x : at) line.push_back(middle_of(x));
-        return around(s, std::move(line), at, over, parameters, size);
+        for (auto const& x : tube.at) line.push_back(middle_of(x));
+        return around(s, std::move(line), tube.at, tube.over, parameters, size);
     }
     /// Along one trajectory, which is given at the times of the nodes: nothing beside it.
     [[nodiscard]] disturbed_motion along(std::size_t s, std::vector<std::vector<double>> line,
@@ -181,15 +198,13 @@ private:
     static void narrow_at(time_grid const& grid, double t, box const& known, std::vector<box>& at) {
         auto const k = std::lower_bound(grid.times.begin(), grid.times.end(), t);
         if (k == grid.times.end() || *k != t) return;
-        auto& x = at[static_cast<std::size_t>(k - grid.times.begin())];
-        for (std::size_t i = 0; i < x.size(); ++i) x[i] = agreed(x[i], known[i]);
+        motion_tube::narrow(at[static_cast<std::size_t>(k - grid.times.begin())], known);
     }
 
     [[nodiscard]] disturbed_motion around(std::size_t s, std::vector<std::vector<double>> line,
                                           std::vector<box> const& at, std::vector<box> const& over,
                                           box const& parameters, double size) const {
         disturbed_motion result;
-        result.begin = grids_[s].times.front();
         result.line = std::move(line);
         for (std::size_t k = 0; k < at.size(); ++k) {
             auto& z = result.beside.emplace_back(states());

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -22,10 +23,12 @@ struct plain_motion {
         double length = 0;
         Eigen::MatrixXd step, kick, by_parameter; ///< Phi, M^-1 h, F
         Eigen::VectorXd defect;
+        Eigen::VectorXd left; ///< what the middles leave open of z', at most; or none
     };
     std::vector<cell> cells;
 
-    explicit plain_motion(disturbed_motion const& m) {
+    /// @param away  of parameters from the middle: what is left open then counts; or none
+    explicit plain_motion(disturbed_motion const& m, std::vector<interval> const& away = {}) {
         auto const n = static_cast<Eigen::Index>(m.beside.front().size());
         Eigen::MatrixXd const one = Eigen::MatrixXd::Identity(n, n);
         for (auto const& c : m.cells) {
@@ -37,9 +40,25 @@ struct plain_motion {
             p.kick *= p.length;
             p.by_parameter = middles(c.by_parameter, n);
             p.defect = middles(c.defect, n);
+            if (!away.empty()) p.left = left_open(c, away);
             cells.push_back(std::move(p));
         }
     }
+    [[nodiscard]] static Eigen::VectorXd left_open(disturbed_cell const& c,
+                                                   std::vector<interval> const& away) {
+        auto const n = c.defect.size();
+        Eigen::VectorXd result(static_cast<Eigen::Index>(n));
+        for (std::size_t i = 0; i < n; ++i) {
+            double sum = rad(c.defect[i]) + mag(c.rough[i]);
+            for (std::size_t j = 0; j < n; ++j)
+                sum += product(rad(c.by_state[i * n + j]), mag(c.beside[j]));
+            for (std::size_t j = 0; j < away.size(); ++j)
+                sum += product(rad(c.by_parameter[i * away.size() + j]), mag(away[j]));
+            result[static_cast<Eigen::Index>(i)] = std::isfinite(sum) ? sum : 1e100;
+        }
+        return result;
+    }
+    [[nodiscard]] static double product(double a, double b) { return a == 0 ? 0 : a * b; }
     /// Of numbers in so many rows; 0 where there is no middle.
     [[nodiscard]] static Eigen::MatrixXd middles(std::vector<interval> const& x,
                                                  Eigen::Index rows) {

@@ -48,23 +48,35 @@ public:
             away_.push_back(traits::sub(p, traits::point(mid(p))));
     }
 
+    /// A state at a node.
+    struct place {
+        std::size_t node = 0, state = 0;
+    };
+
+    /// @param target  enters the sum with weight 1, without a measurement; `enclosed` bounds it
     void add(disturbed_motion const& motion, plain_motion const& plain,
-             std::vector<double> const& weights) {
+             std::vector<double> const& weights, place const* target = nullptr) {
         auto const n = static_cast<Eigen::Index>(motion.beside.front().size());
         std::vector<std::size_t> order;
         for (std::size_t i = 0; i < weights.size(); ++i)
             if (weights[i] != 0) order.push_back(i);
-        if (order.empty()) return;
+        if (order.empty() && target == nullptr) return;
         work_clock::count(motion.cells.size() * static_cast<std::size_t>(n * (2 * n + 4)),
                           work_clock::interval);
         Eigen::VectorXd after = Eigen::VectorXd::Zero(n); // behind the node
         auto next = order.size();
-        for (auto k = motion.samples[order.back()].node + 1; k-- > 0;) {
+        auto last = order.empty() ? 0 : motion.samples[order.back()].node;
+        if (target != nullptr) last = std::max(last, target->node);
+        for (auto k = last + 1; k-- > 0;) {
             Eigen::VectorXd before = after;
             std::vector<interval> jump(static_cast<std::size_t>(n), traits::point(0.0));
             while (next > 0 && motion.samples[order[next - 1]].node == k) {
                 auto const i = order[--next];
                 add_sample(motion.samples[i], weights[i], before, jump);
+            }
+            if (target != nullptr && target->node == k) {
+                before[static_cast<Eigen::Index>(target->state)] += 1;
+                jump[target->state] = traits::add(jump[target->state], traits::point(1.0));
             }
             if (k == 0) before.setZero();
             for (Eigen::Index j = 0; j < n; ++j) {
@@ -79,10 +91,14 @@ public:
             after = begin;
         }
     }
+    /// Encloses the target, beside the line, for disturbances up to `size`.
+    [[nodiscard]] interval enclosed(double size) const {
+        double const most = detail::mul_up(size, most_);
+        if (!std::isfinite(most)) return traits::entire();
+        return traits::sub(traits::bounds(-most, most), total());
+    }
     [[nodiscard]] weighted_bound proved() {
-        auto sum = left_;
-        for (std::size_t j = 0; j < away_.size(); ++j)
-            sum = traits::sub(sum, traits::mul(sums_[j], away_[j]));
+        auto const sum = total();
         double const gap = mig(sum);
         bool undefined = false;
         if (is_empty(sum) || !(gap > 0)) return bound_;
@@ -94,6 +110,12 @@ public:
     }
 
 private:
+    [[nodiscard]] interval total() const {
+        auto sum = left_;
+        for (std::size_t j = 0; j < away_.size(); ++j)
+            sum = traits::sub(sum, traits::mul(sums_[j], away_[j]));
+        return sum;
+    }
     void add_sample(disturbed_sample const& s, double weight, Eigen::VectorXd& before,
                     std::vector<interval>& jump) {
         auto const w = traits::point(weight);
