@@ -12,16 +12,17 @@ for all that is left.
 The module calls what the program ``sivid`` calls; results are the same files, which ``sivid check`` proves anew.
 """
 from ._core import Error, InternalError, version as __version__
-from .commands import check, control, design, diagnose, generate, identify, predict, rank, simulate, verify
+from .commands import check, control, design, diagnose, disturbance, generate, identify, predict, rank, simulate, verify
 from .data import Data
 from .model import Model
-from .results import Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification
+from .results import Design, Diagnosis, Disturbance, Identification, Prediction, Ranking, Result, Verification
 from .tracing import clamp, deadband, number, where
 
 __all__ = [
     "Data",
     "Design",
     "Diagnosis",
+    "Disturbance",
     "Error",
     "Identification",
     "InternalError",
@@ -36,6 +37,7 @@ __all__ = [
     "deadband",
     "design",
     "diagnose",
+    "disturbance",
     "generate",
     "identify",
     "number",

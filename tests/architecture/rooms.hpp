@@ -28,7 +28,7 @@ inline std::map<std::string_view, std::vector<std::string_view>> const rooms{
      {"series", "set", "step", "runge_kutta", "stiff", "taylor", "sensitivity"}},
     {"paving",
      {"relation", "response", "observer", "run", "search", "products", "contract", "curve", "judge",
-      "strategy", "inflation", "outliers", "online", "identifiability", "static"}},
+      "strategy", "inflation", "outliers", "online", "identifiability", "static", "disturbance"}},
     {"decision", {"requirement", "motion", "ranking", "design"}},
     {"diagnosis", {"sensor", "candidate", "gap", "hold_out", "claim"}},
     {"io", {"text", "dataset", "result"}},

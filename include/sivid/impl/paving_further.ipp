@@ -5,6 +5,7 @@
 #include <sivid/paving/identifiability/impl/output_sensitivities.ipp>
 #include <sivid/paving/impl/divisors.ipp>
 #include <sivid/paving/impl/identifiability.ipp>
+#include <sivid/paving/impl/least_disturbance.ipp>
 #include <sivid/paving/impl/online_identification.ipp>
 
 #endif
