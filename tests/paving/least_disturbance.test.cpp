@@ -27,7 +27,8 @@ struct spring {
     static constexpr auto states = sivid::states({{"x", "m", 10}, {"v", "m/s", 10, "force"}});
     static constexpr auto inputs = sivid::inputs({{"u", "m/s^2"}});
     static constexpr auto channels = sivid::channels({{"x", "m"}});
-    static constexpr auto constants = sivid::constants({{"k", "1/s^2", 1_dec}, {"c", "1/s", 1_dec}});
+    static constexpr auto constants =
+        sivid::constants({{"k", "1/s^2", 1_dec}, {"c", "1/s", 1_dec}});
     template <class T>
     auto rate(T const&, states_of<spring, T> const& x, constants_of<spring, T> const& c,
               inputs_of<spring, T> const& u) const {
@@ -49,8 +50,8 @@ struct bent {
     template <class T>
     auto rate(T const&, states_of<bent, T> const& x, constants_of<bent, T> const& c,
               inputs_of<bent, T> const& u) const {
-        return states_of<bent, T>{
-            x[1], u[0] - c[0] * x[0] - x[0] * x[0] * x[0] / T(5) - c[1] * x[1]};
+        return states_of<bent, T>{x[1],
+                                  u[0] - c[0] * x[0] - x[0] * x[0] * x[0] / T(5) - c[1] * x[1]};
     }
     template <class T>
     auto observe(T const&, states_of<bent, T> const& x, constants_of<bent, T> const&,
@@ -228,10 +229,9 @@ struct tally {
     std::size_t without_witness = 0, explained = 0, open = 0;
 };
 
-void hold_to(planted const& p, std::uint64_t seed, tally& all) {
+void hold_to(planted const& p, std::uint64_t seed, tally& all, std::size_t boxes) {
     least_disturbance_options options;
-    options.seconds = 4;
-    options.boxes = 30;
+    options.boxes = boxes;
     auto const found = least_disturbance(p.problem, p.set, options);
     INFO("seed " << seed << ": " << found.size.lower() << " .. " << found.size.upper() << " of "
                  << p.size);
@@ -257,24 +257,20 @@ void check_tally(tally& all, std::size_t count) {
                                 << ", without a witness " << all.without_witness);
     CHECK(all.ratios[all.ratios.size() / 2] <= 1.5);
     CHECK(all.without_witness <= count / 20);
-    WARN("upper/lower: median " << all.ratios[all.ratios.size() / 2] << ", worst "
-                                << all.ratios.back() << ", of " << all.ratios.size() << "; open "
-                                << all.open << ", explained without " << all.explained
-                                << ", without a witness " << all.without_witness);
 }
 
 } // namespace
 
 TEST_CASE("planted disturbances are never below the lower bound", "[least_disturbance]") {
     tally all;
-    for (std::uint64_t seed = 1; seed <= 18; ++seed) hold_to(plant_any(seed), seed, all);
-    check_tally(all, 18);
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) hold_to(plant_any(seed), seed, all, 8);
+    check_tally(all, 12);
 }
 
 TEST_CASE("a hundred drawn disturbances are bounded within half as much again",
           "[.long][least_disturbance]") {
     tally all;
-    for (std::uint64_t seed = 100; seed < 200; ++seed) hold_to(plant_any(seed), seed, all);
+    for (std::uint64_t seed = 100; seed < 200; ++seed) hold_to(plant_any(seed), seed, all, 100);
     check_tally(all, 100);
 }
 

@@ -15,7 +15,8 @@ namespace sivid {
 /// A state equation or a channel that is disturbed, and in which unit its disturbance is counted.
 struct disturbed_quantity {
     std::size_t index = 0;
-    double scale = 1; ///< of W = 1: of an equation in its state's unit per time, of a channel in its
+    double scale =
+        1; ///< of W = 1: of an equation in its state's unit per time, of a channel in its
 };
 
 /// Unknown functions of time beside the model: \f$ x_i' = f_i(t, x, p, u) + d_i(t) \f$ and
@@ -28,12 +29,12 @@ struct disturbance_set {
 /// The same by the names of equations and of channels, with their scales; an equation is known by
 /// the name of its state, too.
 /// @throws std::invalid_argument  as `require_valid` does, and for a name that is none
-[[nodiscard]] SIVID_DECL disturbance_set
-disturbance_on(recorded_model const& model,
-               std::vector<std::pair<std::string, double>> const& equations,
-               std::vector<std::pair<std::string, double>> const& channels = {});
+[[nodiscard]] SIVID_DECL disturbance_set disturbance_on(
+    recorded_model const& model, std::vector<std::pair<std::string, double>> const& equations,
+    std::vector<std::pair<std::string, double>> const& channels = {});
 
-/// @throws std::invalid_argument  for a set without members, a scale that is not above 0 and finite,
+/// @throws std::invalid_argument  for a set without members, a scale that is not above 0 and
+/// finite,
 ///         one equation or channel twice or unknown, a model with delays, plays or rate limits, and
 ///         an equation on which no channel depends
 SIVID_DECL void require_valid(disturbance_set const& set, recorded_model const& model);

@@ -22,7 +22,7 @@ namespace sivid {
 struct least_disturbance_options {
     double relative_width = 0.1; ///< stop when upper - lower is at most this share of upper
     double seconds = 20;
-    std::size_t boxes = 2000;   ///< of parameters that are bounded from below, at most
+    std::size_t boxes = 2000; ///< of parameters that are bounded from below, at most
     /// A witness is constant between two measured times; in shorter pieces where those are no more
     /// than so many in all.
     std::size_t segments = 600;
@@ -50,8 +50,9 @@ struct disturbance_bound {
     std::optional<verified_witness> witness;
     /// Of each disturbed equation and experiment from begin to end: no witness, no pieces.
     std::vector<disturbance_piece> pieces;
-    /// Proved, where `size.lower()` is above 0: for every parameter of the prior that explains the
-    /// data, a disturbance reaches that size somewhere in these stretches, one of an experiment.
+    /// Proved, where `size.lower()` is above 0: of all disturbances up to `size.upper()` that
+    /// explain the data, with any parameter, one reaches the lower size somewhere in these
+    /// stretches, one of an experiment.
     std::vector<disturbed_stretch> needed;
     /// Contains every parameter that explains the data with disturbances up to `size.upper()`.
     box hull;

@@ -712,11 +712,11 @@ private:
 
     void add_disturbance() {
         auto& c = disturbance_;
-        auto* const s = add(c, "disturbance",
-                            "the least unknown disturbance of equations and channels with which "
-                            "the model explains a data set, within proved bounds",
-                            "data --on EQUATION=SCALE --out disturbed",
-                            [this, &c] { return run(of_, c); });
+        auto* const s =
+            add(c, "disturbance",
+                "the least unknown disturbance of equations and channels with which "
+                "the model explains a data set, within proved bounds",
+                "data --on EQUATION=SCALE --out disturbed", [this, &c] { return run(of_, c); });
         s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
         s->add_option("--on", c.on,
                       "equations that are disturbed, and how much a size of 1 means there, in the "

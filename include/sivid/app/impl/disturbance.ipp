@@ -29,8 +29,8 @@ namespace sivid::app {
 
 namespace detail {
 
-inline std::vector<std::pair<std::string, double>>
-scales_from(std::vector<std::string> const& list, std::string const& option) {
+inline std::vector<std::pair<std::string, double>> scales_from(std::vector<std::string> const& list,
+                                                               std::string const& option) {
     std::vector<std::pair<std::string, double>> result;
     for (auto const& [name, range] : ranges_from(list, option))
         result.emplace_back(name, one_value(option + " " + name, range));
@@ -54,7 +54,8 @@ inline std::string disturbance_json(identification_problem const& problem,
     auto const& about = problem.model.about;
     json_writer json;
     json.begin_object().members("format", "sivid-disturbance-1", "dataset", dataset);
-    json.members("time_unit", about.time_unit).named("prior", problem.choice.unknown, problem.prior);
+    json.members("time_unit", about.time_unit)
+        .named("prior", problem.choice.unknown, problem.prior);
     write_disturbed(
         json, "equations", set.equations,
         [&](std::size_t i) { return about.states[i].equation_name(); },
@@ -89,7 +90,8 @@ inline std::string disturbance_csv(identification_problem const& problem,
     for (auto const& p : found.pieces)
         text += io_detail::cell(problem.experiments[p.experiment].name) + "," +
                 io_detail::cell(problem.model.about.states[p.equation].equation_name()) + "," +
-                nearest_text(p.from) + "," + nearest_text(p.to) + "," + nearest_text(p.value) + "\n";
+                nearest_text(p.from) + "," + nearest_text(p.to) + "," + nearest_text(p.value) +
+                "\n";
     return text;
 }
 
@@ -110,9 +112,8 @@ inline std::vector<disturbance_piece> strong_stretches(disturbance_set const& se
         else
             result.push_back(p);
     }
-    std::stable_sort(result.begin(), result.end(), [](auto const& a, auto const& b) {
-        return a.to - a.from > b.to - b.from;
-    });
+    std::stable_sort(result.begin(), result.end(),
+                     [](auto const& a, auto const& b) { return a.to - a.from > b.to - b.from; });
     return result;
 }
 
@@ -144,7 +145,8 @@ inline void print_disturbance(identification_problem const& problem, disturbance
     strong.resize(std::min<std::size_t>(strong.size(), 5));
     for (auto const& p : strong)
         std::cout << "  the witness needs it in " << about.states[p.equation].equation_name()
-                  << ": " << stretch(p) << ", " << nearest_text(p.value, 3) << " (others may not)\n";
+                  << ": " << stretch(p) << ", " << nearest_text(p.value, 3)
+                  << " (others may not)\n";
     if (found.witness)
         for (std::size_t j = 0; j < found.hull.size(); ++j)
             std::cout << "  with disturbances up to it " << problem.choice.unknown[j] << " in ["

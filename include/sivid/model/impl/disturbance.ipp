@@ -56,8 +56,7 @@ inline void require_members(std::vector<disturbed_quantity> const& all, std::siz
             refuse_disturbance("unknown " + what + ": number " + std::to_string(q.index) + " of " +
                                std::to_string(known) + ", counted from 0");
         if (!(q.scale > 0) || !std::isfinite(q.scale))
-            refuse_disturbance("the scale of a disturbed " + what + " is " +
-                               nearest_text(q.scale) +
+            refuse_disturbance("the scale of a disturbed " + what + " is " + nearest_text(q.scale) +
                                "; give a number above 0: what a size of 1 means there");
         if (!seen.insert(q.index).second)
             refuse_disturbance("a " + what + " is named twice; name each once");
@@ -76,8 +75,8 @@ quantities_named(std::vector<std::pair<std::string, double>> const& wanted, std:
         if (at == count) {
             auto const near = nearest_name(name, names);
             refuse_disturbance("there is no " + what + " '" + name + "'" +
-                               (near.empty() ? "" : "; did you mean '" + near + "'?") + "; known: " +
-                               joined(names, ", "));
+                               (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                               "; known: " + joined(names, ", "));
         }
         result.push_back({at, scale});
     }
@@ -86,10 +85,9 @@ quantities_named(std::vector<std::pair<std::string, double>> const& wanted, std:
 
 } // namespace model_detail
 
-SIVID_DECL disturbance_set
-disturbance_on(recorded_model const& model,
-               std::vector<std::pair<std::string, double>> const& equations,
-               std::vector<std::pair<std::string, double>> const& channels) {
+SIVID_DECL disturbance_set disturbance_on(
+    recorded_model const& model, std::vector<std::pair<std::string, double>> const& equations,
+    std::vector<std::pair<std::string, double>> const& channels) {
     auto const& about = model.about;
     std::vector<std::string> states, outputs;
     for (auto const& s : about.states) states.push_back(s.equation_name());
@@ -150,8 +148,7 @@ SIVID_DECL identification_problem with_disturbance(identification_problem proble
         model.rate[q.index] = model.g.binary(operation::add, model.rate[q.index], leaf);
         model.about.inputs.push_back({name, rate_unit(state.unit, model.about.time_unit)});
         for (auto& e : problem.experiments)
-            e.inputs.push_back(
-                sampled_signal({e.begin}, {0.0}, interpolation::hold, {bound(q)}));
+            e.inputs.push_back(sampled_signal({e.begin}, {0.0}, interpolation::hold, {bound(q)}));
     }
     if (!set.equations.empty()) model.stated.reset();
     for (auto const& q : set.channels) {

@@ -47,7 +47,8 @@ struct program_room {
 /// The least size of disturbances that are constant in segments, with which a linearised problem
 /// explains its measurements: a linear program in the size, the steps of parameters and starts,
 /// and all disturbances,
-///   \f$ \min W, \; |H_i z + G_i \pi - m_i| \le b_i + s_i W, \; |d| \le W s \f$, boxes of the steps,
+///   \f$ \min W, \; |H_i z + G_i \pi - m_i| \le b_i + s_i W, \; |d| \le W s \f$, boxes of the
+///   steps,
 /// by a primal-dual interior point method. Its normal equations are those of a controlled motion
 /// with quadratic costs, the parameters and the size being further states that do not change: a
 /// Riccati recursion along each experiment solves them.
@@ -89,8 +90,8 @@ public:
         start();
         for (int round = 0; round < 60 && go_on(); ++round) {
             double const mu = complementarity();
-            if (!std::isfinite(mu) || (mu * static_cast<double>(rows_) < 1e-8 * (1 + size()) &&
-                                       infeasible_ < 1e-9))
+            if (!std::isfinite(mu) ||
+                (mu * static_cast<double>(rows_) < 1e-8 * (1 + size()) && infeasible_ < 1e-9))
                 break;
             if (!factor()) break;
             aim(0, false);
@@ -156,7 +157,7 @@ private:
         row above, below;
     };
     struct segment {
-        matrix step, by_shared, kick; ///< Phi, of parameters and W (0), of d
+        matrix step, by_shared, kick;  ///< Phi, of parameters and W (0), of d
         std::vector<row> above, below; ///< d <= W, -d <= W
         vector d, move;
         matrix gain;    ///< of the factored round
@@ -165,14 +166,14 @@ private:
     };
     struct chain {
         index n = 0;
-        vector unit;                              ///< of the start
-        std::vector<row> starts;                  ///< upper and lower side of each
+        vector unit;             ///< of the start
+        std::vector<row> starts; ///< upper and lower side of each
         std::vector<segment> segments;
-        std::vector<std::vector<sample>> at;      ///< at the begin of each segment and at the end
-        vector x0, move;                          ///< in its units
-        matrix cost;                              ///< of the start and what is shared
+        std::vector<std::vector<sample>> at; ///< at the begin of each segment and at the end
+        vector x0, move;                     ///< in its units
+        matrix cost;                         ///< of the start and what is shared
         std::size_t samples = 0;
-        matrix rest;                              ///< of the start, given what is shared
+        matrix rest; ///< of the start, given what is shared
         vector rest_offset;
     };
 
@@ -194,7 +195,8 @@ private:
             parameter_unit_[j] = std::isfinite(most) ? most : 0.0;
         }
     }
-    /// Of an unknown in units of the range's size; of one without room an unknown that does nothing.
+    /// Of an unknown in units of the range's size; of one without room an unknown that does
+    /// nothing.
     static void add_sides(std::vector<row>& to, interval const& range) {
         double const most = mag(range);
         bool const open = most > 0 && std::isfinite(most) && width(range) > 0;
@@ -254,8 +256,7 @@ private:
                 result.kick(q - disturbed_, q) += cell.length * cell.left[q - disturbed_];
             for (index q = 0; q < disturbed_; ++q) {
                 auto const& e = set.equations[static_cast<std::size_t>(q)];
-                result.kick.col(q) +=
-                    e.scale * unit_ * cell.kick.col(static_cast<index>(e.index));
+                result.kick.col(q) += e.scale * unit_ * cell.kick.col(static_cast<index>(e.index));
             }
             at = cell.step * at + cell.kick * cell.defect;
         }
@@ -336,8 +337,8 @@ private:
         for_each_row([&](row& r, double v) {
             r.value = v;
             sum += r.slack * r.multiplier;
-            infeasible_ = std::max(infeasible_, std::abs(v + r.slack - r.reach) /
-                                                    (1 + std::abs(r.reach)));
+            infeasible_ =
+                std::max(infeasible_, std::abs(v + r.slack - r.reach) / (1 + std::abs(r.reach)));
         });
         return sum / static_cast<double>(rows_);
     }
@@ -345,8 +346,7 @@ private:
     void aim(double product, bool corrected) {
         for_each_row([&](row& r, double) {
             double const miss = r.value + r.slack - r.reach;
-            double const wanted =
-                product - (corrected ? r.slack_step * r.multiplier_step : 0.0);
+            double const wanted = product - (corrected ? r.slack_step * r.multiplier_step : 0.0);
             r.push = wanted / r.slack + r.stiff * miss;
         });
     }
@@ -482,7 +482,8 @@ private:
         for (auto& g : c.segments) {
             g.move = vector::Zero(driven_);
             if (driven_ > 0)
-                g.move = g.offset + g.gain.leftCols(c.n) * x + g.gain.rightCols(shared_) * beta_move_;
+                g.move =
+                    g.offset + g.gain.leftCols(c.n) * x + g.gain.rightCols(shared_) * beta_move_;
             x = g.step * x + g.by_shared * beta_move_ + g.kick * g.move;
         }
     }
@@ -545,7 +546,7 @@ private:
     index shared_;             ///< parameters and the size
     index disturbed_, driven_; ///< disturbed equations; with what is left open
     vector sized_, scale_;     ///< of what drives: 1 where the size is its bound; its scale
-    double unit_ = 1;       ///< of sizes
+    double unit_ = 1;          ///< of sizes
     vector parameter_unit_, beta_, beta_move_;
     std::vector<chain> chains_;
     std::vector<row> global_; ///< sides of parameters, then that of the size

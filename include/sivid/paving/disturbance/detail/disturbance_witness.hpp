@@ -73,42 +73,45 @@ public:
                                        std::vector<double>(own.size(), 0.0));
         return result;
     }
+    /// Steps of parameters within a trust region, each with what disturbances and starts alone then
+    /// keep the bounds with.
     /// @returns  the best guess on the way that keeps all bounds; else the one that violates least
     [[nodiscard]] disturbance_guess improve(disturbance_guess guess,
                                             segment_begins const& segments) {
         auto here = look(guess, segments);
-        if (here.empty()) return guess;
-        auto best = guess;
         double trust = 1;
-        int idle = 0;
-        for (int round = 0; round < 14 && idle < 3 && trust > 1e-3 && go_on_(); ++round) {
+        for (int round = 0, idle = 0; round < 25 && idle < 3 && !here.empty(); ++round) {
+            if (trust < 1e-4 || !go_on_()) break;
             auto next = step(guess, here, segments, trust);
             if (!next) break;
             auto there = look(*next, segments);
-            bool const better =
-                !there.empty() &&
-                (next->violation < 0.9 * guess.violation ||
-                 (next->violation <= settled && next->size < (1 - 1e-4) * guess.size));
-            if (!better) {
+            for (int repair = 0; repair < 2 && next->violation > settled; ++repair) {
+                auto const fixed = there.empty() ? std::nullopt : step(*next, there, segments, 0);
+                if (!fixed) break;
+                auto better = *fixed;
+                auto at = look(better, segments);
+                if (at.empty() || !(better.violation < next->violation)) break;
+                next = std::move(better);
+                there = std::move(at);
+            }
+            if (there.empty() || !is_better(*next, guess)) {
                 trust /= 4;
-                ++idle;
-                if (there.empty()) continue;
-                // The bounds as they are may hold where the shrunken ones do not.
-                if (is_better(*next, best)) best = *next;
                 continue;
             }
-            idle = next->size > 0.995 * guess.size && next->violation <= 0 ? idle + 1 : 0;
+            bool const held = guess.violation <= settled;
+            idle = held && next->size > 0.997 * guess.size ? idle + 1 : 0;
+            trust = std::min(1.0, 2 * trust);
             guess = std::move(*next);
             here = std::move(there);
-            if (is_better(guess, best)) best = guess;
         }
-        return best;
+        return guess;
     }
     /// Proves by validated runs that a guess explains the data.
     /// @param size  receives what its disturbances need, rounded upward
-    [[nodiscard]] std::optional<verified_witness>
-    verify(disturbance_guess const& guess, segment_begins const& segments,
-           feasibility_test_options const& options, double& size) const {
+    [[nodiscard]] std::optional<verified_witness> verify(disturbance_guess const& guess,
+                                                         segment_begins const& segments,
+                                                         feasibility_test_options const& options,
+                                                         double& size) const {
         size = 0;
         for (auto const& own : guess.values) {
             for (std::size_t q = 0; q < own.size(); ++q) {
@@ -127,20 +130,17 @@ public:
         return verify_witness(test, known, guess.parameters, guess.starts);
     }
     /// The pieces of a guess.
-    [[nodiscard]] std::vector<disturbance_piece>
-    pieces(disturbance_guess const& guess,
-           segment_begins const& segments) const {
+    [[nodiscard]] std::vector<disturbance_piece> pieces(disturbance_guess const& guess,
+                                                        segment_begins const& segments) const {
         std::vector<disturbance_piece> result;
         for (std::size_t s = 0; s < segments.size(); ++s) {
             auto const& times = motions_->times(s);
             for (std::size_t q = 0; q < set_->equations.size(); ++q) {
                 auto const& d = guess.values[s][q];
                 for (std::size_t k = 0; k < d.size(); ++k) {
-                    double const to =
-                        k + 1 < d.size() ? times[segments[s][k + 1]] : times.back();
-                    result.push_back({{s, times[segments[s][k]], to},
-                                      set_->equations[q].index,
-                                      d[k]});
+                    double const to = k + 1 < d.size() ? times[segments[s][k + 1]] : times.back();
+                    result.push_back(
+                        {{s, times[segments[s][k]], to}, set_->equations[q].index, d[k]});
                 }
             }
         }
@@ -164,9 +164,8 @@ private:
         if (holds != other) return holds;
         return holds ? a.size < b.size : a.violation < b.violation;
     }
-    [[nodiscard]] std::vector<signal>
-    inputs_with(std::size_t s, disturbance_guess const& guess,
-                segment_begins const& segments) const {
+    [[nodiscard]] std::vector<signal> inputs_with(std::size_t s, disturbance_guess const& guess,
+                                                  segment_begins const& segments) const {
         auto inputs = problem_->experiments[s].inputs;
         auto const& times = motions_->times(s);
         for (auto const& d : guess.values[s]) {
@@ -178,8 +177,8 @@ private:
     }
     /// The motions along the trajectories of a guess, with bounds shrunk; its size and violation.
     /// Empty where it cannot be simulated.
-    [[nodiscard]] std::vector<disturbed_motion>
-    look(disturbance_guess& guess, segment_begins const& segments) {
+    [[nodiscard]] std::vector<disturbed_motion> look(disturbance_guess& guess,
+                                                     segment_begins const& segments) {
         std::vector<disturbed_motion> result;
         guess.size = guess.violation = 0;
         for (std::size_t s = 0; s < problem_->experiments.size(); ++s) {
@@ -216,9 +215,10 @@ private:
         guess.violation = std::max(guess.violation, beyond / half);
     }
     /// Where a program along a guess leads.
-    [[nodiscard]] std::optional<disturbance_guess>
-    step(disturbance_guess const& from, std::vector<disturbed_motion> const& along,
-         segment_begins const& segments, double trust) const {
+    [[nodiscard]] std::optional<disturbance_guess> step(disturbance_guess const& from,
+                                                        std::vector<disturbed_motion> const& along,
+                                                        segment_begins const& segments,
+                                                        double trust) const {
         std::vector<plain_motion> plain;
         for (std::size_t s = 0; s < along.size(); ++s) {
             plain.emplace_back(along[s]);
@@ -232,20 +232,20 @@ private:
                         -from.values[s][q][segment];
             }
         }
-        auto const room_about = [trust](box const& range, std::vector<double> const& x) {
+        auto const room_about = [](double share, box const& range, std::vector<double> const& x) {
             box room(x.size());
             for (std::size_t j = 0; j < x.size(); ++j) {
-                double const most = trust * width(range[j]);
+                double const most = share * width(range[j]);
                 room[j] = traits::bounds(std::min(0.0, std::max(range[j].lower() - x[j], -most)),
                                          std::max(0.0, std::min(range[j].upper() - x[j], most)));
             }
             return room;
         };
         program_room room;
-        for (auto const& side : room_about(problem_->prior, from.parameters))
+        for (auto const& side : room_about(trust, problem_->prior, from.parameters))
             room.parameters.push_back(side);
         for (std::size_t s = 0; s < along.size(); ++s)
-            room.starts.push_back(room_about(problem_->experiments[s].initial, from.starts[s]));
+            room.starts.push_back(room_about(1, problem_->experiments[s].initial, from.starts[s]));
         auto const found = disturbance_program(along, plain, *set_, segments, room)(go_on_);
         if (!found.finite) return std::nullopt;
         auto next = from;

@@ -221,16 +221,18 @@ private:
         add_samples(s, result, at, parameters);
         return result;
     }
-    [[nodiscard]] disturbed_cell cell_of(std::size_t s, std::size_t k, disturbed_motion const& motion,
-                                         box const& over, box const& parameters, double size,
-                                         cell_ranges& along, graph_range& range) const {
+    [[nodiscard]] disturbed_cell cell_of(std::size_t s, std::size_t k,
+                                         disturbed_motion const& motion, box const& over,
+                                         box const& parameters, double size, cell_ranges& along,
+                                         graph_range& range) const {
         auto const n = states();
         auto const& grid = grids_[s];
         double const from = grid.times[k], to = grid.times[k + 1];
-        time_cell cell{from,
-                       to,
-                       {traits::bounds(from, to), box(n), point_box(mid(parameters)), grid.inputs[k]},
-                       {}};
+        time_cell cell{
+            from,
+            to,
+            {traits::bounds(from, to), box(n), point_box(mid(parameters)), grid.inputs[k]},
+            {}};
         auto const& first = motion.line[k];
         auto const& last = motion.line[k + 1];
         box wide(n);
@@ -258,9 +260,9 @@ private:
             result.rough.push_back(add_slopes(i, range, result) ? traits::point(0.0)
                                    : defined ? traits::sub(range.value(f), along.natural.value(f))
                                              : traits::entire());
-            result.beside.push_back(
-                beside_line(i, motion, k, over, defined ? range.value(f) : traits::entire(), slope,
-                            size, result.length));
+            result.beside.push_back(beside_line(i, motion, k, over,
+                                                defined ? range.value(f) : traits::entire(), slope,
+                                                size, result.length));
         }
         return result;
     }

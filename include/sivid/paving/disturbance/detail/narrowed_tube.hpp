@@ -41,16 +41,14 @@ namespace sivid::paving_detail {
 /// @cost  O(nodes states block n^2), a block being 96 cells
 [[nodiscard]] inline motion_tube narrowed_tube(disturbed_motion const& motion, motion_tube tube,
                                                disturbance_set const& set, box const& parameters,
-                                               double size,
-                                               std::function<bool()> const& go_on) {
+                                               double size, std::function<bool()> const& go_on) {
     using traits = interval_traits<interval>;
     constexpr std::size_t block = 96, stride = 48;
     auto const cells = motion.cells.size();
     for (std::size_t c = 0; c < cells; ++c) {
         for (std::size_t i = 0; i < tube.over[c].size(); ++i) {
             auto const line = hull(interval(motion.line[c][i]), interval(motion.line[c + 1][i]));
-            tube.over[c][i] =
-                agreed(tube.over[c][i], traits::add(line, motion.cells[c].beside[i]));
+            tube.over[c][i] = agreed(tube.over[c][i], traits::add(line, motion.cells[c].beside[i]));
         }
     }
     for (std::size_t from = 0; from < cells && go_on(); from += stride) {
@@ -72,7 +70,8 @@ namespace sivid::paving_detail {
                     weighted_motion sum(set, parameters);
                     weighted_motion::place const target{k - first, i};
                     sum.add(part[0], plain[0], program.weights_for(0, k - first, i), &target);
-                    auto const x = traits::add(traits::point(motion.line[k][i]), sum.enclosed(size));
+                    auto const x =
+                        traits::add(traits::point(motion.line[k][i]), sum.enclosed(size));
                     tube.at[k][i] = agreed(tube.at[k][i], x);
                 }
             }

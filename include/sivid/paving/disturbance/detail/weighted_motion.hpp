@@ -44,8 +44,7 @@ public:
     weighted_motion(disturbance_set const& set, box const& parameters)
         : set_(&set), sums_(parameters.size(), traits::point(0.0)) {
         bound_.influence.assign(parameters.size(), 0.0);
-        for (auto const& p : parameters)
-            away_.push_back(traits::sub(p, traits::point(mid(p))));
+        for (auto const& p : parameters) away_.push_back(traits::sub(p, traits::point(mid(p))));
     }
 
     /// A state at a node.
@@ -54,13 +53,15 @@ public:
     };
 
     /// @param target  enters the sum with weight 1, without a measurement; `enclosed` bounds it
-    void add(disturbed_motion const& motion, plain_motion const& plain,
-             std::vector<double> const& weights, place const* target = nullptr) {
+    /// @returns  the node before which nothing counts: where no measurement is weighted before it
+    ///           and the weights of the states have nearly died away
+    std::size_t add(disturbed_motion const& motion, plain_motion const& plain,
+                    std::vector<double> const& weights, place const* target = nullptr) {
         auto const n = static_cast<Eigen::Index>(motion.beside.front().size());
         std::vector<std::size_t> order;
         for (std::size_t i = 0; i < weights.size(); ++i)
             if (weights[i] != 0) order.push_back(i);
-        if (order.empty() && target == nullptr) return;
+        if (order.empty() && target == nullptr) return 0;
         work_clock::count(motion.cells.size() * static_cast<std::size_t>(n * (2 * n + 4)),
                           work_clock::interval);
         Eigen::VectorXd after = Eigen::VectorXd::Zero(n); // behind the node
@@ -78,18 +79,21 @@ public:
                 before[static_cast<Eigen::Index>(target->state)] += 1;
                 jump[target->state] = traits::add(jump[target->state], traits::point(1.0));
             }
-            if (k == 0) before.setZero();
+            bool const first = k == 0 || (target == nullptr && next == 0 &&
+                                          charge(before, motion.beside[k]) < 1e-3 * mig(left_));
+            if (first) before.setZero();
             for (Eigen::Index j = 0; j < n; ++j) {
                 auto const i = static_cast<std::size_t>(j);
                 auto const step = traits::sub(traits::point(before[j]), traits::point(after[j]));
-                left_ = traits::add(left_, traits::mul(traits::sub(step, jump[i]),
-                                                       motion.beside[k][i]));
+                left_ = traits::add(left_,
+                                    traits::mul(traits::sub(step, jump[i]), motion.beside[k][i]));
             }
-            if (k == 0) break;
+            if (first) return k;
             Eigen::VectorXd const begin = plain.cells[k - 1].step.transpose() * before;
             add_cell(motion.cells[k - 1], begin, before);
             after = begin;
         }
+        return 0;
     }
     /// Encloses the target, beside the line, for disturbances up to `size`.
     [[nodiscard]] interval enclosed(double size) const {
@@ -102,14 +106,20 @@ public:
         double const gap = mig(sum);
         bool undefined = false;
         if (is_empty(sum) || !(gap > 0)) return bound_;
-        bound_.lower = most_ > 0 ? traits::div(traits::point(gap), traits::point(most_), undefined)
-                                       .lower()
-                                 : detail::infinity;
+        bound_.lower =
+            most_ > 0 ? traits::div(traits::point(gap), traits::point(most_), undefined).lower()
+                      : detail::infinity;
         if (!(bound_.lower > 0)) bound_.lower = 0;
         return bound_;
     }
 
 private:
+    [[nodiscard]] static double charge(Eigen::VectorXd const& a, box const& z) {
+        double sum = 0;
+        for (Eigen::Index j = 0; j < a.size(); ++j)
+            if (a[j] != 0) sum += std::abs(a[j]) * mag(z[static_cast<std::size_t>(j)]);
+        return sum;
+    }
     [[nodiscard]] interval total() const {
         auto sum = left_;
         for (std::size_t j = 0; j < away_.size(); ++j)
@@ -142,9 +152,9 @@ private:
             mean.push_back(traits::mul(half, traits::add(at(a[k]), at(b[k])))); // int a
             auto const rise = traits::sub(at(b[k]), at(a[k]));
             turn.push_back(traits::div(rise, c.length, undefined)); // a'
-            double const apart = traits::mul(traits::mul(at(0.5), half),
-                                             traits::mul(at(mag(rise)), at(c.swing[i])))
-                                     .upper();
+            double const apart =
+                traits::mul(traits::mul(at(0.5), half), traits::mul(at(mag(rise)), at(c.swing[i])))
+                    .upper();
             left_ = traits::sub(left_, traits::add(traits::mul(mean[i], c.defect[i]),
                                                    traits::bounds(-apart, apart)));
             auto const sizes = traits::add(at(std::abs(a[k])), at(std::abs(b[k])));
@@ -170,8 +180,8 @@ private:
     /// \f$ \int a F \f$ for an F(t) in a range, a along a line: F at the ends of it.
     [[nodiscard]] static interval weighed(interval const& range, double a, double b,
                                           interval const& half) {
-        auto const ends = traits::add(traits::mul(range, traits::point(a)),
-                                      traits::mul(range, traits::point(b)));
+        auto const ends =
+            traits::add(traits::mul(range, traits::point(a)), traits::mul(range, traits::point(b)));
         return traits::mul(half, ends);
     }
     /// What \f$ \int (a' + J^T a)_j z_j \f$ is at most: along the line its size is at most that of
@@ -190,8 +200,8 @@ private:
         if (sizes.upper() == 0) return;
         auto const z = is_bounded(c.beside[j]) ? traits::point(mag(c.beside[j])) : traits::entire();
         double const most = traits::mul(traits::mul(half, sizes), z).upper();
-        left_ = traits::add(left_, std::isfinite(most) ? traits::bounds(-most, most)
-                                                       : traits::entire());
+        left_ = traits::add(left_,
+                            std::isfinite(most) ? traits::bounds(-most, most) : traits::entire());
     }
 
     disturbance_set const* set_;
