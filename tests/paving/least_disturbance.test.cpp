@@ -2,6 +2,8 @@
 // The least disturbance: planted ones are never excluded, least ones that are known by hand are met
 // from both sides, what cannot be answered is refused.
 #include <sivid/model/disturbance.hpp>
+#include <sivid/paving/disturbance/detail/narrowed_tube.hpp>
+#include <sivid/paving/disturbance/detail/weighted_motion.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/least_disturbance.hpp>
 
@@ -122,6 +124,7 @@ struct planted {
     identification_problem problem;
     disturbance_set set;
     double size = 0;
+    std::vector<std::vector<vec<double, 2>>> states{}; ///< true ones, at the sample times
 };
 
 /// Disturbances of a shape that is drawn: a pulse, a wave, a jump to and fro.
@@ -158,7 +161,9 @@ void add_experiment(planted& to, draws& d, Model const& model, vec<double, 2> co
     e.inputs = {u};
     auto const push = shape(d, end);
     double const scale = to.set.equations[0].scale;
+    auto& states = to.states.emplace_back();
     for (std::size_t k = 0; k <= samples; ++k) {
+        states.push_back(x);
         auto const y = model.observe(times[k], x, truth, vec<double, 1>{values[k]});
         for (std::size_t c = 0; c < y.size(); ++c) {
             double more = 0;
@@ -265,6 +270,50 @@ TEST_CASE("planted disturbances are never below the lower bound", "[least_distur
     tally all;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) hold_to(plant_any(seed), seed, all, 8);
     check_tally(all, 12);
+}
+
+TEST_CASE("no weights prove more than is true, and no tube loses the planted motion",
+          "[least_disturbance]") {
+    using namespace paving_detail;
+    for (std::uint64_t seed = 20; seed < 32; ++seed) {
+        auto const p = plant_any(seed);
+        CAPTURE(seed);
+        draws d(seed + 1000);
+        disturbed_motions const motions(p.problem, p.set);
+        std::vector<disturbed_motion> all;
+        for (std::size_t s = 0; s < motions.experiments(); ++s) {
+            auto tube = motions.tube(s, p.problem.prior, p.size);
+            for (int round = 0; round < 2; ++round) {
+                auto const& times = motions.times(s);
+                auto const& e = p.problem.experiments[s];
+                for (std::size_t k = 0; k < p.states[s].size(); ++k) {
+                    auto const t = std::get<sampled_signal>(e.inputs[0]).times()[k];
+                    auto const node = std::lower_bound(times.begin(), times.end(), t);
+                    REQUIRE(*node == t);
+                    auto const& x = tube.at[static_cast<std::size_t>(node - times.begin())];
+                    for (std::size_t i = 0; i < 2; ++i) {
+                        CHECK(x[i].lower() <= p.states[s][k][i] + 1e-8);
+                        CHECK(p.states[s][k][i] <= x[i].upper() + 1e-8);
+                    }
+                }
+                auto const motion = motions.within(s, tube, p.problem.prior, p.size);
+                if (round == 1) all.push_back(motion);
+                tube = narrowed_tube(motion, tube, p.set, p.problem.prior, p.size,
+                                     [] { return true; });
+            }
+        }
+        for (int round = 0; round < 60; ++round) {
+            weighted_motion sum(p.set, p.problem.prior);
+            for (auto const& motion : all) {
+                std::vector<double> weights(motion.samples.size(), 0.0);
+                auto const some = 1 + d.below(weights.size());
+                for (std::size_t k = 0; k < some; ++k)
+                    weights[d.below(weights.size())] = d.uniform(-1, 1);
+                (void)sum.add(motion, plain_motion(motion), weights);
+            }
+            CHECK(sum.proved().lower <= p.size);
+        }
+    }
 }
 
 TEST_CASE("a hundred drawn disturbances are bounded within half as much again",

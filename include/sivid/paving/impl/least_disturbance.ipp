@@ -83,8 +83,24 @@ private:
         if (!found || !(size < upper_)) return;
         upper_ = size;
         result_.witness = std::move(found);
-        result_.pieces = witness_.pieces(guess, segments_);
+        result_.pieces = pieces_of(guess);
     }
+    [[nodiscard]] std::vector<disturbance_piece> pieces_of(disturbance_guess const& guess) const {
+        std::vector<disturbance_piece> result;
+        for (std::size_t s = 0; s < segments_.size(); ++s) {
+            auto const& times = motions_.times(s);
+            for (std::size_t q = 0; q < set_->equations.size(); ++q) {
+                auto const& d = guess.values[s][q];
+                for (std::size_t k = 0; k < d.size(); ++k) {
+                    double const to = k + 1 < d.size() ? times[segments_[s][k + 1]] : times.back();
+                    result.push_back(
+                        {{s, times[segments_[s][k]], to}, set_->equations[q].index, d[k]});
+                }
+            }
+        }
+        return result;
+    }
+
     /// Searches up to the witness's size; where its motions are too wide to say much, up to less.
     void bound_below() {
         level_ = std::isfinite(upper_) ? upper_ : usual_size();

@@ -120,10 +120,10 @@ public:
     }
     /// Weights of the measurements of one experiment that nearly cancel a state at the begin of a
     /// segment: those of the least squares estimate of it.
-    [[nodiscard]] std::vector<double> weights_for(std::size_t s, std::size_t segment,
+    [[nodiscard]] std::vector<double> weights_for(std::size_t s, std::size_t begin,
                                                   std::size_t state) {
         auto& c = chains_[s];
-        target_ = {segment, static_cast<index>(state)};
+        target_ = {begin, static_cast<index>(state)};
         vector side = vector::Zero(shared_);
         backward(c, side, true);
         beta_move_ = shared_cost_.solve(-side);

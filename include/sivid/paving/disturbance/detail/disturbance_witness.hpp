@@ -9,7 +9,6 @@
 #include <sivid/paving/disturbance/detail/disturbed_motion.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/judge/witness.hpp>
-#include <sivid/paving/least_disturbance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -128,23 +127,6 @@ public:
         }
         feasibility_test test(known, options);
         return verify_witness(test, known, guess.parameters, guess.starts);
-    }
-    /// The pieces of a guess.
-    [[nodiscard]] std::vector<disturbance_piece> pieces(disturbance_guess const& guess,
-                                                        segment_begins const& segments) const {
-        std::vector<disturbance_piece> result;
-        for (std::size_t s = 0; s < segments.size(); ++s) {
-            auto const& times = motions_->times(s);
-            for (std::size_t q = 0; q < set_->equations.size(); ++q) {
-                auto const& d = guess.values[s][q];
-                for (std::size_t k = 0; k < d.size(); ++k) {
-                    double const to = k + 1 < d.size() ? times[segments[s][k + 1]] : times.back();
-                    result.push_back(
-                        {{s, times[segments[s][k]], to}, set_->equations[q].index, d[k]});
-                }
-            }
-        }
-        return result;
     }
 
 private:
