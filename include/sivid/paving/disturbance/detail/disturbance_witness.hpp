@@ -117,7 +117,8 @@ public:
                 for (double const d : own[q]) size = std::max(size, share(d, q));
             }
         }
-        if (!set_->channels.empty()) size = std::max(size, detail::next_up(guess.size));
+        if (guess.size > 0 && !set_->channels.empty())
+            size = std::max(size, detail::next_up(guess.size));
         auto const grown = with_disturbance(*problem_, *set_, size);
         auto known = driven_;
         for (std::size_t s = 0; s < known.experiments.size(); ++s) {
