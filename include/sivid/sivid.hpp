@@ -52,6 +52,7 @@
 #include <sivid/model/change/copy_equations.hpp>
 #include <sivid/model/closed_loop.hpp>
 #include <sivid/model/describe.hpp>
+#include <sivid/model/disturbance.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/effects.hpp>
 #include <sivid/model/expression.hpp>
@@ -148,6 +149,7 @@
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/paving/judge/feasibility_test_options.hpp>
 #include <sivid/paving/judge/witness.hpp>
+#include <sivid/paving/least_disturbance.hpp>
 #include <sivid/paving/observer/interval_observer.hpp>
 #include <sivid/paving/online/online_update.hpp>
 #include <sivid/paving/online_identification.hpp>

@@ -19,6 +19,7 @@ from .commands import (
     control,
     design,
     diagnose,
+    disturbance,
     generate,
     identify,
     predict,
@@ -28,7 +29,17 @@ from .commands import (
 )
 from .data import Data
 from .model import Model
-from .results import Confidence, Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification
+from .results import (
+    Confidence,
+    Design,
+    Diagnosis,
+    Disturbance,
+    Identification,
+    Prediction,
+    Ranking,
+    Result,
+    Verification,
+)
 from .tracing import clamp, deadband, number, where
 
 __all__ = [
@@ -36,6 +47,7 @@ __all__ = [
     "Data",
     "Design",
     "Diagnosis",
+    "Disturbance",
     "Error",
     "Identification",
     "InternalError",
@@ -52,6 +64,7 @@ __all__ = [
     "deadband",
     "design",
     "diagnose",
+    "disturbance",
     "generate",
     "identify",
     "number",

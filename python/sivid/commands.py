@@ -15,7 +15,18 @@ from typing import Union
 from . import _core
 from .data import Data
 from .model import Model
-from .results import Confidence, Design, Diagnosis, Identification, Prediction, Ranking, Result, Verification, Workplace
+from .results import (
+    Confidence,
+    Design,
+    Diagnosis,
+    Disturbance,
+    Identification,
+    Prediction,
+    Ranking,
+    Result,
+    Verification,
+    Workplace,
+)
 
 __all__ = [
     "certificate",
@@ -24,6 +35,7 @@ __all__ = [
     "control",
     "design",
     "diagnose",
+    "disturbance",
     "generate",
     "identify",
     "predict",
@@ -193,6 +205,27 @@ def rank(
         options["unknown"] = _assigned(options["unknown"])
     words += _words({"scenario": scenario and _scenario(scenario, place), **options})
     return _run(Ranking, model, place, words, progress)
+
+
+def disturbance(
+    model: Model,
+    data: Record,
+    on: dict | None = None,
+    *,
+    error: dict | None = None,
+    effects: Sequence[str] = (),
+    out: File | None = None,
+    progress: Progress = None,
+    **options,
+) -> Disturbance:
+    """The least unknown disturbance with which the model explains the data, proved from both sides.
+
+    ``on``: equations that are disturbed, with what a size of 1 means there, in the state's unit per time:
+    ``{"v": 0.01}``. ``error``: channels that may be further off than their bounds, likewise. Option: ``budget``."""
+    place = _placed(out)
+    words = ["disturbance", _data(model, data, place)]
+    words += _words({"on": on, "error": error, "with": ",".join(effects) or None, **options})
+    return _run(Disturbance, model, place, words, progress)
 
 
 def generate(model: Model, scenario: Scenario, out: File, *, progress: Progress = None, **options) -> Data:

@@ -298,6 +298,22 @@ class Ranking(Result):
     page, file = "ranking.html", "ranking.json"
 
 
+class Disturbance(Result):
+    """The least disturbance with which a model explains its data. ``report`` has no page of it."""
+
+    file = "disturbance.json"
+
+    @property
+    def size(self) -> tuple:
+        """Proved bounds of the least size; the upper one is None where no witness was found."""
+        return tuple(self.to_json()["size"])
+
+    @property
+    def pieces(self) -> np.ndarray:
+        """What the witness is disturbed by: scenario, equation, from, to, value."""
+        return _table(self.folder / "disturbance.csv", ("scenario", "equation"))
+
+
 def _table(file, texts=()) -> np.ndarray:
     """A table of a result as a structured array; empty cells are NaN."""
     with open(file, newline="", encoding="utf-8") as lines:

@@ -35,8 +35,8 @@ TEST_CASE("every command explains itself with an example") {
     CHECK_THAT(all.out, ContainsSubstring("A cup of tea"));
     for (std::string const command :
          {"import", "simulate", "generate", "identify", "online", "confidence", "check",
-          "certificate", "diagnose", "predict", "verify", "control", "design", "rank", "report",
-          "describe", "fleet"}) {
+          "certificate", "diagnose", "predict", "verify", "control", "design", "rank",
+          "disturbance", "report", "describe", "fleet"}) {
         CAPTURE(command);
         CHECK_THAT(all.out, ContainsSubstring(command));
         auto const one = run({command, "--help"});
@@ -79,6 +79,10 @@ TEST_CASE("a misspelt command, option or name is answered by the nearest one") {
         "not within 0 to 1");
     refused({"rank", "--out", out}, "give a data set or --scenario");
     refused({"rank", "--scenario", "tea", "--out", out}, "--measure");
+    refused({"disturbance", s.data(), "--out", out}, "name one with its scale");
+    refused({"disturbance", s.data(), "--on", "U=1", "--out", out}, "no equation 'U'");
+    refused({"disturbance", s.data(), "--on", "T=0", "--out", out}, "a number above 0");
+    refused({"disturbance", s.data(), "--on", "T", "--out", out}, "write name=value");
     refused({"fleet", "identify", s.data(), "--out", out, "--task", "3/2"}, "K from 1 to N");
     refused({"check", s.at("nowhere")}, "nowhere");
     refused({"report", s.data()}, "*.page.json");
@@ -300,6 +304,38 @@ TEST_CASE("simulate, rank and describe work for any model") {
     CHECK_THAT(ranked.out, ContainsSubstring("tea T: k"));
     CHECK_THAT(run({"describe"}).out, StartsWith("model cup\n"));
     CHECK_THAT(run({"describe", "--dot"}).out, StartsWith("digraph \"cup\""));
+}
+
+TEST_CASE("the least disturbance of a data set is bounded from both sides") {
+    served const s;
+    auto const asked = [&] {
+        return run({"disturbance", s.data(), "--on", "T=2", "--quiet", "--out", s.at("out")});
+    };
+    auto const none = asked();
+    CHECK(none.code == 0);
+    CHECK_THAT(none.out, ContainsSubstring("without disturbances (proved)"));
+    CHECK(files_in(s.at("out")) == std::set<std::string>{"disturbance.csv", "disturbance.json"});
+    CHECK(json_of(fs::path{s.at("out")} / "disturbance.json")["size"][1] == 0);
+
+    // One reading more than the cup can explain.
+    auto const file = fs::path{s.data()} / "tea.measurements.csv";
+    auto rows = text_of(file);
+    auto const last = rows.rfind('\n', rows.size() - 2) + 1;
+    auto const comma = rows.find(',', last) + 1;
+    rows.insert(comma, "1");
+    s.folder().write("data/tea.measurements.csv", rows);
+    auto const some = asked();
+    CAPTURE(some.out, some.err);
+    CHECK(some.code == 0);
+    CHECK_THAT(some.out, ContainsSubstring("least disturbance: ") &&
+                             ContainsSubstring("it is reached somewhere in tea from"));
+    auto const json = json_of(fs::path{s.at("out")} / "disturbance.json");
+    CHECK(json["format"] == "sivid-disturbance-1");
+    CHECK(json["size"][0] > 1);
+    CHECK(json["size"][1] < 2 * json["size"][0].get<double>());
+    CHECK(json["equations"][0]["scale"] == 2);
+    CHECK_THAT(text_of(fs::path{s.at("out")} / "disturbance.csv"),
+               StartsWith("scenario,equation,from,to,value\ntea,T,0,"));
 }
 
 TEST_CASE("a table is imported, and a log that is none is refused whole") {

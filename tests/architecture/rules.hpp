@@ -156,6 +156,8 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/paving/online/detail/online_witness.hpp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/outlier_budget.ipp", {"fit/fit.hpp"}},
         {"sivid/paving/impl/inflation.ipp", {"fit/fit.hpp"}},
+        {"sivid/paving/impl/least_disturbance.ipp", {"fit/fit.hpp"}},
+        {"sivid/paving/disturbance/detail/disturbance_witness.hpp", {"simulate/simulate.hpp"}},
         {"sivid/diagnosis/hold_out/detail/holdout_judgement.hpp", {"fit/fit.hpp"}},
         {"sivid/diagnosis/claim/detail/claim_review.hpp", {"fit/detail/approximate_campaign.hpp"}},
         {"sivid/diagnosis/gap/impl/confined_gap.ipp", {"fit/fit.hpp"}},

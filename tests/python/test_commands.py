@@ -124,6 +124,16 @@ class AfterIdentification(Case):
         ranked = sivid.rank(self.model, scenario=S3, unknown={"Sg": (0.03, 0.05)}, measure={"psi": 0.01}, budget=5)
         self.assertIn("Sg", ranked.text)
 
+    def test_disturbance(self):
+        found = sivid.disturbance(fed_culture(), fed_data(decay=0.3), {"x": 0.1}, budget=10)
+        lower, upper = found.size
+        self.assertTrue(0 < lower <= upper < 2 * lower)
+        self.assertLess(lower, 3)  # 0.3 x of at most 1
+        self.assertEqual(set(found.pieces["equation"]), {"x"})
+        self.assertLessEqual(abs(found.pieces["value"]).max(), 0.1 * upper * (1 + 1e-12))
+        self.assertIn("least disturbance", found.text)
+        self.refused("did you mean 'x'", lambda: sivid.disturbance(fed_culture(), fed_data(), {"xx": 1}))
+
     def test_pages_and_pictures(self):
         page = self.found.report(self.folder / "page.html").read_text()
         self.assertEqual(page, (self.found.folder / "report.html").read_text())

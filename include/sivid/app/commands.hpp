@@ -175,6 +175,16 @@ struct rank_command : command {
 };
 [[nodiscard]] SIVID_DECL int run(robot const& r, rank_command const& c);
 
+/// `disturbance`: the least unknown functions of time with which the model explains a data set.
+struct disturbance_command : command {
+    std::filesystem::path dataset;
+    std::vector<std::string> effects;    ///< of the catalogue, joined to the model
+    std::vector<std::string> on, errors; ///< equations and channels with their scales: v=0.01
+    double budget = 20;                  ///< [s]
+};
+/// `done` where both bounds are proved, the lower at least half of the upper one.
+[[nodiscard]] SIVID_DECL int run(robot const& r, disturbance_command const& c);
+
 /// `report`: the pages of a stored result anew, byte for byte.
 struct report_command : command {
     std::filesystem::path result;

@@ -11,6 +11,7 @@
 #include <sivid/model/impl/bound_model.ipp>
 #include <sivid/model/impl/closed_loop.ipp>
 #include <sivid/model/impl/describe.ipp>
+#include <sivid/model/impl/disturbance.ipp>
 #include <sivid/model/impl/effect.ipp>
 #include <sivid/model/impl/effect_names.ipp>
 #include <sivid/model/impl/effect_scope.ipp>

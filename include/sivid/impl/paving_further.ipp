@@ -7,6 +7,7 @@
 #include <sivid/paving/impl/confidence_region.ipp>
 #include <sivid/paving/impl/divisors.ipp>
 #include <sivid/paving/impl/identifiability.ipp>
+#include <sivid/paving/impl/least_disturbance.ipp>
 #include <sivid/paving/impl/online_identification.ipp>
 
 #endif

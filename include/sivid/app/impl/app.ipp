@@ -164,6 +164,7 @@ public:
              {decision::predict, decision::verify, decision::control, decision::design})
             add_decision(what);
         add_rank();
+        add_disturbance();
         add_report();
         add_describe();
         add_fleet();
@@ -774,6 +775,28 @@ private:
         add_enclosing(*s, c.how);
     }
 
+    void add_disturbance() {
+        auto& c = disturbance_;
+        auto* const s =
+            add(c, "disturbance",
+                "the least unknown disturbance of equations and channels with which "
+                "the model explains a data set, within proved bounds",
+                "data --on EQUATION=SCALE --out disturbed", [this, &c] { return run(of_, c); });
+        s->add_option("dataset", c.dataset, "folder with dataset.json")->required();
+        s->add_option("--on", c.on,
+                      "equations that are disturbed, and how much a size of 1 means there, in the "
+                      "state's unit per time: v=0.01");
+        s->add_option("--error", c.errors,
+                      "channels that may be further off than their bounds, and how much a size of "
+                      "1 means there: psi=0.01");
+        s->add_option("--with", c.effects, "effects of the catalogue, joined to the model")
+            ->delimiter(',');
+        add_out(*s, c, "disturbance.json and disturbance.csv")->required();
+        add_budget(*s, c.budget, "seconds; it ends earlier when the bounds are close");
+        add_exit_codes(*s, "0 bounded from both sides, within a factor of 2, 2 bad input, 3 not "
+                           "within that.");
+    }
+
     void add_report() {
         auto& c = report_;
         auto* const s = add(c, "report", "the pages of a stored result of any command anew",
@@ -856,6 +879,7 @@ private:
     decision_command decision_;
     enclosing decision_how_{.set = "taylor-model"};
     rank_command rank_;
+    disturbance_command disturbance_;
     report_command report_;
     describe_command describe_;
     fleet_command fleet_;
