@@ -343,10 +343,10 @@ private:
         return sum / static_cast<double>(rows_);
     }
     /// Where the products of slacks and multipliers are to go.
-    void aim(double product, bool corrected) {
+    void aim(double goal, bool corrected) {
         for_each_row([&](row& r, double) {
             double const miss = r.value + r.slack - r.reach;
-            double const wanted = product - (corrected ? r.slack_step * r.multiplier_step : 0.0);
+            double const wanted = goal - (corrected ? r.slack_step * r.multiplier_step : 0.0);
             r.push = wanted / r.slack + r.stiff * miss;
         });
     }
