@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * check_certificate FILE [FOLDER] checks a certificate (sivid-certificate-1, docs/formats.md)
+ * check_certificate FILE [FOLDER] checks a certificate (sivid-certificate-1, README.md)
  * without sivid; its data have to be those of the folder. Exit codes: 0 all that is claimed is
  * proved here; 2 refused: damaged, malformed, other data; 3 something is not proved here.
  * Taken for granted: C99, doubles with + - * / as IEEE 754 says, rounded to nearest, subnormals

@@ -12,21 +12,8 @@ for all that is left.
 The module calls what the program ``sivid`` calls; results are the same files, which ``sivid check`` proves anew.
 """
 from ._core import Error, InternalError, version as __version__
-from .commands import (
-    certificate,
-    check,
-    confidence,
-    control,
-    design,
-    diagnose,
-    disturbance,
-    generate,
-    identify,
-    predict,
-    rank,
-    simulate,
-    verify,
-)
+from . import commands
+from .commands import *  # noqa: F403: what its __all__ lists
 from .data import Data
 from .model import Model
 from .results import (
@@ -56,21 +43,9 @@ __all__ = [
     "Ranking",
     "Result",
     "Verification",
-    "certificate",
-    "check",
+    *commands.__all__,
     "clamp",
-    "confidence",
-    "control",
     "deadband",
-    "design",
-    "diagnose",
-    "disturbance",
-    "generate",
-    "identify",
     "number",
-    "predict",
-    "rank",
-    "simulate",
-    "verify",
     "where",
 ]

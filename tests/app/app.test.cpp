@@ -74,6 +74,7 @@ TEST_CASE("a misspelt command, option or name is answered by the nearest one") {
     refused({"identify", s.data(), "--out", out, "--outliers", "99"}, "allow fewer");
     refused({"identify", s.data(), "--out", out, "--budget", "nan"}, "nan is not a number");
     refused({"identify", s.data(), "--out", out, "--outliers-for", "0.9"}, "go together");
+    refused({"identify", s.data(), "--out", out, "--compare", "--by-bounds"}, "give one of them");
     refused(
         {"identify", s.data(), "--out", out, "--outliers-for", "1.5", "--bound-probability", "0.9"},
         "not within 0 to 1");

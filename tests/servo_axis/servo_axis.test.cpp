@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,6 +52,22 @@ std::string simulated_record(std::vector<double> const& truth) {
 }
 
 } // namespace
+
+TEST_CASE("the mapping of whole records reads records of their form") {
+    temporary_folder const folder;
+    for (auto const* name : {"estimation_200Hz.csv", "validation_200Hz.csv"})
+        std::ofstream{folder.path() / name} << "t_s,motor_voltage_V,force_N,position_m\n"
+                                               "0.000,2.5,89.2,0.00000745\n"
+                                               "0.005,2.9,103.9,0.00004955\n";
+    auto const mapping =
+        std::filesystem::path{SIVID_SOURCE_DIR} / "examples/measured/servo_axis/whole_record.json";
+    std::filesystem::copy(mapping, folder.path());
+    auto const r =
+        run_program(SERVO_AXIS_PROGRAM, {"import", (folder.path() / "whole_record.json").string(),
+                                         "--out", (folder.path() / "data").string()});
+    INFO(r.err);
+    CHECK(r.code == 0);
+}
 
 TEST_CASE("the velocity filter is exact on cubics", "[servo_axis]") {
     servo::recording r;

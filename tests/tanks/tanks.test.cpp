@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,18 @@ TEST_CASE("water over a rim is lost but for its share", "[tanks]") {
     auto const root = [](double inflow) { return std::pow(inflow / 0.09, 2); };
     CHECK_THAT(level(0), WithinAbs(root(0.05 * std::sqrt(9.2)), 0.05));
     CHECK_THAT(level(1), WithinAbs(root(0.25), 0.05));
+}
+
+TEST_CASE("the mapping of the tanks reads records of their form") {
+    temporary_folder const folder;
+    for (auto const* name : {"estimation.csv", "validation.csv"})
+        std::ofstream{folder.path() / name} << "t_s,pump_voltage_V,level_lower_tank_V\n"
+                                               "0,3.2567,5.205\n4,3.1,5.2\n8,3.0,5.1\n";
+    fs::copy(fs::path{SIVID_SOURCE_DIR} / "examples/measured/tanks/mapping.json", folder.path());
+    auto const r = run_program(TANKS_PROGRAM, {"import", (folder.path() / "mapping.json").string(),
+                                               "--out", (folder.path() / "data").string()});
+    INFO(r.err);
+    CHECK(r.code == 0);
 }
 
 TEST_CASE("the real tanks: where, which, and what stays", "[.long][measured]") {

@@ -12,12 +12,11 @@
 namespace sivid::app {
 
 /// The whole program of a robot, `main` but for its name: `PROGRAM COMMAND ...`, with the commands
-/// import, simulate, generate, identify, online, check, diagnose, predict, verify, control, design,
-/// rank, report, describe and fleet (`commands.hpp`), and the robot's own. `PROGRAM COMMAND --help`
-/// lists options and an example.
+/// import, simulate, generate, identify, online, confidence, check, certificate, diagnose, predict,
+/// verify, control, design, rank, disturbance, report, describe and fleet (`commands.hpp`), and the
+/// robot's own. `PROGRAM COMMAND --help` lists options and an example.
 ///   What it prints on the standard output are results; progress and errors go to the other one.
-///   The
-/// first Ctrl-C ends the work, and what is proved by then is written; a second one ends the
+///   The first Ctrl-C ends the work, and what is proved by then is written; a second one ends the
 /// program. Files are written whole or not at all.
 /// @returns  the exit code (`exit_code` in `program.hpp`); it does not throw
 [[nodiscard]] SIVID_DECL int run(robot const& r, int argc, char** argv);

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -77,7 +78,7 @@ public:
         print(text, terminal_ ? "\r\x1b[K" : "", terminal_ ? "" : "\n");
     }
     void finish() {
-        if (shown_ && terminal_) std::fputc('\n', stderr);
+        if (shown_ && terminal_) std::cerr << '\n';
         shown_ = false;
     }
     [[nodiscard]] double elapsed() const {
@@ -89,8 +90,7 @@ private:
         char time[32];
         std::snprintf(time, sizeof time, "%7.1f s  ", elapsed());
         if (host_ != nullptr) return host_->progress(time + text);
-        std::fprintf(stderr, "%s%s%s%s", before, time, text.c_str(), behind);
-        std::fflush(stderr);
+        std::cerr << (std::string{before} + time).append(text).append(behind) << std::flush;
     }
 
     using clock = std::chrono::steady_clock;

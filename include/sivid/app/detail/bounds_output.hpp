@@ -4,6 +4,7 @@
 
 #include <sivid/app/console.hpp>
 #include <sivid/io/identification_csv.hpp>
+#include <sivid/model/problem.hpp>
 #include <sivid/number/decimal_output.hpp>
 #include <sivid/paving/bound_influence.hpp>
 #include <sivid/report/number_text.hpp>
@@ -26,9 +27,9 @@ inline std::string bounds_csv(identification_problem const& problem,
     std::string csv = "bounds_of,scale,verdict,complete,parameter,lower,upper\n";
     for (auto const& line : lines) {
         for (std::size_t j = 0; j < line.hull.size(); ++j) {
-            csv += whose(line, problem) + "," + report::exact_text(line.scale) + "," +
-                   std::string{to_string(line.found)} + "," + (line.ended ? "1," : "0,") +
-                   problem.choice.unknown[j] + ",";
+            csv += io_detail::cell(whose(line, problem)) + "," + report::exact_text(line.scale) +
+                   "," + std::string{to_string(line.found)} + "," + (line.ended ? "1," : "0,") +
+                   io_detail::cell(problem.choice.unknown[j]) + ",";
             csv += is_empty(line.hull) ? std::string{","}
                                        : to_decimal_lower(line.hull[j].lower()) + "," +
                                              to_decimal_upper(line.hull[j].upper());
@@ -38,25 +39,31 @@ inline std::string bounds_csv(identification_problem const& problem,
     return csv;
 }
 
-/// How wide the ranges would be, in shares of those with the stated bounds (the first line).
+/// What one line says: how wide the ranges would be, in shares of those with the stated bounds,
+/// where any of these are known.
+inline std::string bounds_words(identification_problem const& problem, bound_influence const& line,
+                                box const& stated) {
+    if (is_empty(line.hull)) return "no parameter explains the data";
+    std::string text;
+    for (std::size_t j = 0; j < line.hull.size() && !is_empty(stated); ++j)
+        text += (j == 0 ? "" : ", ") + problem.choice.unknown[j] +
+                text_of(" %.3g", width(line.hull[j]) / width(stated[j]));
+    if (is_empty(stated))
+        text = line.found == verdict::consistent ? "some parameter explains the data" : "undecided";
+    return text + (line.ended         ? ""
+                   : is_empty(stated) ? " (the budget ended)"
+                                      : " (at most: the budget ended)");
+}
+/// A line for each search but that with the stated bounds, the first.
 inline std::string bounds_text(identification_problem const& problem,
                                std::vector<bound_influence> const& lines) {
     auto const& stated = lines.front().hull;
-    if (is_empty(stated)) return {};
-    std::string text = "  ranges with other error bounds, as shares of those with the stated "
-                       "ones (bounds.csv):\n";
-    for (std::size_t k = 1; k < lines.size(); ++k) {
-        auto const& line = lines[k];
-        text += "    " + whose(line, problem) + " x " + report::given_text(line.scale) + ": ";
-        if (is_empty(line.hull)) {
-            text += "no parameter explains the data\n";
-            continue;
-        }
-        for (std::size_t j = 0; j < line.hull.size(); ++j)
-            text += (j == 0 ? "" : ", ") + problem.choice.unknown[j] +
-                    text_of(" %.3g", width(line.hull[j]) / width(stated[j]));
-        text += line.ended ? "\n" : " (at most: the budget ended)\n";
-    }
+    std::string text = "  with other error bounds, ";
+    text += is_empty(stated) ? "whether any parameter explains the data (bounds.csv):\n"
+                             : "ranges as shares of those with the stated ones (bounds.csv):\n";
+    for (std::size_t k = 1; k < lines.size(); ++k)
+        text += "    " + whose(lines[k], problem) + " x " + report::given_text(lines[k].scale) +
+                ": " + bounds_words(problem, lines[k], stated) + "\n";
     return text;
 }
 

@@ -149,9 +149,10 @@ inline void print_disturbance(identification_problem const& problem, disturbance
                   << " (others may not)\n";
     if (found.witness)
         for (std::size_t j = 0; j < found.hull.size(); ++j)
-            std::cout << "  with disturbances up to it " << problem.choice.unknown[j] << " in ["
-                      << to_decimal_lower(found.hull[j].lower(), 5) << ", "
-                      << to_decimal_upper(found.hull[j].upper(), 5) << "] (proved)\n";
+            std::cout << "  with disturbances up to it " << problem.choice.unknown[j] << " in "
+                      << report::outward_text_within(found.hull[j], problem.prior[j])
+                      << (subset(problem.prior[j], found.hull[j]) ? " (nothing excluded)\n"
+                                                                  : " (proved)\n");
 }
 
 } // namespace detail

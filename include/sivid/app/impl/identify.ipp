@@ -168,6 +168,9 @@ public:
           limit_(0, wanted) {
         auto& problem = task_.problem;
         if (c.algorithm == "report-1") problem = without_outliers(std::move(problem));
+        if (c.compare && c.by_bounds)
+            throw bad_request("--compare and --by-bounds both spend what the search leaves of the "
+                              "budget: give one of them");
         if (remembering_ && asks_for_more(c))
             throw bad_request(
                 "effects that delay, a backlash or a rate limit, and lags that begin where "

@@ -116,11 +116,7 @@ private:
         contract(options_->strategy, asked);
         integrated_ += asked.integrations();
         if (asked.empty()) return std::nullopt;
-        auto rest = working();
-        rest.prior = asked.problem().prior;
-        for (std::size_t e = 0; e < rest.experiments.size(); ++e)
-            rest.experiments[e].initial = asked.problem().experiments[e].initial;
-        return rest;
+        return asked.left_of(working());
     }
     [[nodiscard]] bool narrowed(identification_problem const& rest) const {
         bool same = subset(working().prior, rest.prior);

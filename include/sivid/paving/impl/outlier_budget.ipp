@@ -128,21 +128,20 @@ private:
     std::optional<verified_witness> witness_;
 };
 
-/// What contractors leave of the prior and of starts for those that violate fewer than `most`.
-/// @returns whether there may be any
-inline bool leave_fewer(identification_problem& problem, std::size_t most,
-                        outlier_search_options const& options, smallest_budget& spent) {
+/// The problem with what contractors leave for those that violate fewer than `most`; nothing where
+/// none do.
+inline std::optional<identification_problem> left_for_fewer(identification_problem const& problem,
+                                                            std::size_t most,
+                                                            outlier_search_options const& options,
+                                                            smallest_budget& spent) {
     auto posed = problem;
     for (auto& e : posed.experiments) e.outliers = std::min(most - 1, e.measurements.size());
     work_limit const own(0.2 * options.seconds, options.keep_going);
     inquiry asked(std::move(posed), limited(options.test, own), {}, own);
     contract(options.strategy, asked);
     spent.integrations += asked.integrations();
-    if (asked.empty()) return false;
-    problem.prior = asked.problem().prior;
-    for (std::size_t e = 0; e < problem.experiments.size(); ++e)
-        problem.experiments[e].initial = asked.problem().experiments[e].initial;
-    return true;
+    if (asked.empty()) return std::nullopt;
+    return asked.left_of(problem);
 }
 
 /// Where no fit has found parameters: what contractors leave for no outlier, for one, for two, ...
@@ -152,11 +151,11 @@ inline std::size_t first_level_left(identification_problem const& problem, few_v
     std::size_t least = 0;
     auto const most = few.total();
     for (std::size_t q = 0; q < most && !few.witness() && options.keep_going(); ++q) {
-        auto rest = problem;
-        if (!leave_fewer(rest, q + 1, options, spent))
+        auto rest = left_for_fewer(problem, q + 1, options, spent);
+        if (!rest)
             least = q + 1;
-        else if (relative_volume(rest.prior, problem.prior).upper() < 1)
-            few.search_within(std::move(rest), q);
+        else if (relative_volume(rest->prior, problem.prior).upper() < 1)
+            few.search_within(*std::move(rest), q);
         else
             break; // nothing is known of so many, nor of more
     }
@@ -164,15 +163,18 @@ inline std::size_t first_level_left(identification_problem const& problem, few_v
 }
 
 /// Bounds from below what `few` bounds from above.
-inline proved_count least_violations(identification_problem problem, few_violations& few,
+inline proved_count least_violations(identification_problem const& whole, few_violations& few,
                                      std::vector<std::size_t> const& least,
                                      outlier_search_options const& options,
                                      smallest_budget& spent) {
-    auto const refuted = first_level_left(problem, few, options, spent);
-    if (few.total() > 0 && !leave_fewer(problem, few.total(), options, spent)) {
+    auto const refuted = first_level_left(whole, few, options, spent);
+    auto const left =
+        few.total() > 0 ? left_for_fewer(whole, few.total(), options, spent) : std::optional{whole};
+    if (!left) {
         spent.reason = stop_reason::decided;
         return {few.total(), few.total()};
     }
+    auto const& problem = *left;
     auto const map = reduction::find(problem, dependence_of(problem));
     outlier_count_search search(map ? map->problem() : problem, least, options);
     std::size_t attempts = 0;

@@ -49,6 +49,13 @@ public:
         for (auto const& e : problem_.experiments) result.starts.push_back(e.initial);
         return result;
     }
+    /// A problem with the same sides, of which this is left.
+    [[nodiscard]] identification_problem left_of(identification_problem other) const {
+        other.prior = problem_.prior;
+        for (std::size_t e = 0; e < other.experiments.size(); ++e)
+            other.experiments[e].initial = problem_.experiments[e].initial;
+        return other;
+    }
     /// Whether less is left than there was.
     [[nodiscard]] bool narrowed() const { return narrowed_; }
     /// Intersects what is left with what a contractor leaves. @returns whether that is less
