@@ -68,7 +68,9 @@ set(SIVID_UNOPTIMISED_PARTS "" CACHE STRING
     "Parts of the compiled library to compile at -O0: they hardly compute, and take the compiler a third of the time then")
 set(SIVID_OPTIMISED_PARTS "" CACHE STRING
     "Parts of the compiled library to compile at -O2 whatever the others are: programs spend most of their time in them")
-mark_as_advanced(SIVID_UNOPTIMISED SIVID_UNOPTIMISED_PARTS SIVID_OPTIMISED_PARTS)
+option(SIVID_JOIN_PARTS
+    "Compile those parts in one source that are optimised alike: three quarters of the time for who does it once" OFF)
+mark_as_advanced(SIVID_UNOPTIMISED SIVID_UNOPTIMISED_PARTS SIVID_OPTIMISED_PARTS SIVID_JOIN_PARTS)
 
 function(sivid_leave_unoptimised target)
     target_compile_options(${target} PRIVATE -O0)

@@ -85,7 +85,7 @@ void row(noise kind, char const* errors, recorded<Model> data, double size) {
         seconds += region.found.seconds;
         confidence_test test(data.problem, options.test);
         (void)prepare_confidence(test, 0.95, options);
-        held += test(point_box(data.truth), nullptr).verdict == box_verdict::inside ? 1 : 0;
+        held += test.learn({point_box(data.truth)})[0].verdict == box_verdict::inside ? 1 : 0;
         for (std::size_t j = 0; j < 2; ++j) options.nominal[region.names[j]] = data.truth[j];
         if (converged) truth += area(confidence_region(data.problem, 0.95, options));
     }

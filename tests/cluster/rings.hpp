@@ -37,10 +37,6 @@ public:
     std::function<bool()> keep_going = nullptr;
     bool cancelled() const { return keep_going && !keep_going(); }
 
-    answer operator()(box const& x, std::shared_ptr<knowledge const> const& known) {
-        auto says = judge(x, known);
-        return says.blind ? std::move(learn({x})[0]) : says;
-    }
     answer judge(box const& x, std::shared_ptr<knowledge const> const& known) {
         answer says{.rest = x};
         if (!known || !subset(x, known->region)) {

@@ -35,7 +35,7 @@ box_verdict holds(identification_problem const& problem, std::vector<double> con
                   double probability, confidence_options const& options) {
     confidence_test test(problem, options.test);
     (void)prepare_confidence(test, probability, options);
-    return test(point_box(truth), nullptr).verdict;
+    return test.learn({point_box(truth)})[0].verdict;
 }
 
 /// So far may a share of n draws be from p: three standard deviations, and half a draw.

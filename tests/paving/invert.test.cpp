@@ -247,7 +247,8 @@ TEST_CASE("a thin set is not halved along sides that say nothing of it") {
         a.rest[0] = traits::intersect(b[0], set);
         if (is_empty(a.rest)) a.verdict = box_verdict::outside;
         // Nothing is seen to be inside of what is wider than a part of it.
-        else if (width(b[0]) < 0.1 * width(set)) a.verdict = box_verdict::inside;
+        else if (width(b[0]) < 0.1 * width(set))
+            a.verdict = box_verdict::inside;
         a.smear = {1, 0, 0, 0};
         return a;
     };
@@ -282,6 +283,60 @@ TEST_CASE("knowledge is handed to parts of its box only") {
     CHECK(test.good);
     CHECK(test.used > 10);
     CHECK(found.paving.outer_volume().upper() >= ring_share);
+}
+
+/// Learns about boxes, and sees a ring in those only that are narrow enough.
+struct blurred_ring {
+    struct knowledge {};
+    double sharp; ///< widest side of boxes that are seen sharply
+    std::size_t learnt = 0;
+
+    assessment<knowledge> judge(box const& x, std::shared_ptr<knowledge const> const&) const {
+        return {.rest = x, .blind = true};
+    }
+    std::vector<assessment<knowledge>> learn(std::vector<box> const& boxes) {
+        std::vector<assessment<knowledge>> says;
+        for (auto const& x : boxes) {
+            says.push_back({.rest = x});
+            if (width(x) <= sharp) says.back().verdict = ring{1, 20}(x).verdict;
+            ++learnt;
+        }
+        return says;
+    }
+    [[nodiscard]] static std::size_t at_once() { return 8; }
+};
+
+TEST_CASE("a search ends where the smallest boxes decide as little as large ones") {
+    auto options = accuracy(1.0 / 256); // of sides of 10: 0.039
+    options.sufficient_ratio = 1;
+    options.boxes = 300'000;
+    blurred_ring never{0};
+    auto const blind = invert(never, square, options);
+    CHECK(blind.reason == stop_reason::too_blurred);
+    CHECK(blind.tested < 2000);
+    CHECK(never.learnt < blind.tested + 32);
+    CHECK(blind.paving.outer_volume().lower() == 1); // nothing is lost
+    CHECK(blind.paving.count(box_verdict::pending) == blind.paving.boxes().size());
+    // The last halving but one shows the set: the search goes on through all that is blurred.
+    blurred_ring late{0.04};
+    auto const sharp = invert(late, square, options);
+    CHECK(sharp.reason == stop_reason::accuracy_reached);
+    CHECK(sharp.tested > 50'000);
+    CHECK(sharp.paving.inner_volume().lower() > 0.9 * 19 * std::numbers::pi / 100);
+    // From any state on the search ends as one that was never interrupted, to the last box.
+    for (std::size_t boxes = 1; boxes < blind.tested; boxes *= 3) {
+        std::shared_ptr<search_state const> state;
+        auto cut = options;
+        cut.boxes = boxes;
+        cut.checkpoint = [&](search_state const& s) { state = std::make_shared<search_state>(s); };
+        CHECK(invert(never, square, cut).reason == stop_reason::box_budget);
+        auto rest = options;
+        rest.resume = state;
+        auto const resumed = invert(never, square, rest);
+        CHECK(resumed.reason == stop_reason::too_blurred);
+        CHECK(resumed.tested == blind.tested);
+        CHECK(resumed.paving.boxes().size() == blind.paving.boxes().size());
+    }
 }
 
 TEST_CASE("invert refuses priors it cannot pave") {

@@ -92,9 +92,10 @@ struct identification {
     /// or one with less to do, the answer may say more.
     bool by_clock = false;
 
-    /// Nothing was decided, or more than half of the prior's volume is left.
+    /// Nothing was decided, more than half of the prior's volume is left, or a search could not help.
     [[nodiscard]] bool excludes_little() const {
-        return verdict == sivid::verdict::undecided || paving.outer_volume().upper() > 0.5;
+        return verdict == sivid::verdict::undecided || paving.outer_volume().upper() > 0.5 ||
+               reason == stop_reason::too_blurred;
     }
 };
 

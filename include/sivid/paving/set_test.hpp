@@ -52,14 +52,15 @@ concept learning_set_test = requires(T test, box const& x,
     { test(x, known) } -> std::same_as<assessment<typename T::knowledge>>;
 };
 
-/// A learning test that separates judging by what is known, which is cheap, from learning, which
-/// it does for several boxes at once.
+/// A test with knowledge, too, that separates judging by what is known, which is cheap, from
+/// learning, which it does for several boxes at once. Who asks about one box judges it, and learns
+/// about it where the judgement is blind.
 ///   `judge` hands on the knowledge that it was given, or none. What both answer depends on their
 ///   arguments alone, bit for bit; what `learn` says of a box may depend on its companions.
 template <class T>
-concept batch_set_test = learning_set_test<T> &&
-    requires(T test, box const& x, std::shared_ptr<typename T::knowledge const> const& known,
-             std::vector<box> const& several) {
+concept batch_set_test = requires(T test, box const& x,
+                                  std::shared_ptr<typename T::knowledge const> const& known,
+                                  std::vector<box> const& several) {
     { test.judge(x, known) } -> std::same_as<assessment<typename T::knowledge>>;
     { test.learn(several) } -> std::same_as<std::vector<assessment<typename T::knowledge>>>;
     { test.at_once() } -> std::convertible_to<std::size_t>;
@@ -104,7 +105,7 @@ concept interruptible_set_test = requires(T const& test) {
 };
 /// What `invert` takes: a test of one box after the other, or of many together.
 template <class T>
-concept set_test = plain_set_test<T> || learning_set_test<T>;
+concept set_test = plain_set_test<T> || learning_set_test<T> || batch_set_test<T>;
 
 /// A test whose knowledge can be learnt anew from the boxes that it was learnt about, so that a
 /// search can be interrupted and resumed.

@@ -27,6 +27,7 @@ enum class stop_reason {
     accuracy_reached, ///< what is undecided is smaller than asked for
     inside_share,     ///< so much of what is not excluded is proved inside as was asked for
     hulls_rest,       ///< the hull of what is left shrinks no more
+    too_blurred,      ///< boxes as small as asked for, all over what is left, decide nothing
     time_budget,
     box_budget,
     memory_budget,
@@ -36,7 +37,8 @@ enum class stop_reason {
 /// Whether a search came to an end by itself: with a larger budget it would have found the same.
 [[nodiscard]] constexpr bool is_complete(stop_reason r) {
     return r == stop_reason::decided || r == stop_reason::accuracy_reached ||
-           r == stop_reason::inside_share || r == stop_reason::hulls_rest;
+           r == stop_reason::inside_share || r == stop_reason::hulls_rest ||
+           r == stop_reason::too_blurred;
 }
 
 [[nodiscard]] constexpr std::string_view to_string(box_verdict v) {
@@ -73,6 +75,8 @@ enum class stop_reason {
         return "enough of what is left is proved inside";
     case stop_reason::hulls_rest:
         return "hulls shrink no more";
+    case stop_reason::too_blurred:
+        return "boxes as small as asked for decide nothing";
     case stop_reason::time_budget:
         return "time budget spent";
     case stop_reason::box_budget:

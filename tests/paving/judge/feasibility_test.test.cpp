@@ -54,7 +54,8 @@ void sweep(std::uint64_t seed, int problems) {
         auto current = prior;
         std::shared_ptr<knowledge const> known;
         for (int depth = 0; depth < 5; ++depth) {
-            auto const a = test(current, d.below(5) == 0 ? nullptr : known);
+            auto a = test.judge(current, d.below(5) == 0 ? nullptr : known);
+            if (a.blind) a = test.learn({current})[0];
             bool const kept = a.verdict != box_verdict::outside && contains(a.rest, planted.truth);
             CAPTURE(depth);
             CHECK(kept);
@@ -66,7 +67,7 @@ void sweep(std::uint64_t seed, int problems) {
         // Boxes anywhere: their verdicts are checked by simulation.
         for (int k = 0; k < 4; ++k) {
             auto const b = box_around(d, d.in(prior), prior, d.coin() ? 0.1 : 0.005);
-            auto const a = test(b, nullptr);
+            auto const a = test.learn({b})[0];
             if (a.verdict == box_verdict::undecided) continue;
             (a.verdict == box_verdict::inside ? inside : outside)++;
             for (int member = 0; member < 3; ++member) {
@@ -101,7 +102,7 @@ TEST_CASE("the truth as a point is inside, a point that fails is outside") {
     for (std::size_t model = 0; model < support::planted_models; ++model) {
         auto const planted = support::plant(d, model, {.samples = 10, .noise = 0.02});
         feasibility_test test(planted.problem, {});
-        CHECK(test(point_box(planted.truth), nullptr).verdict == box_verdict::inside);
+        CHECK(test.learn({point_box(planted.truth)})[0].verdict == box_verdict::inside);
         CHECK(test.integrations() >= 1);
         auto broken = planted.problem;
         auto& bound = broken.experiments[0].measurements[4].bound;
@@ -141,8 +142,8 @@ TEST_CASE("measurements at a knot of a held input that feeds through") {
         feasibility_test_options options;
         options.set = set;
         feasibility_test test(problem, options);
-        CHECK(test(point_box({1.0}), nullptr).verdict == box_verdict::inside);
-        CHECK(test(point_box({1.5}), nullptr).verdict == box_verdict::outside);
+        CHECK(test.learn({point_box({1.0})})[0].verdict == box_verdict::inside);
+        CHECK(test.learn({point_box({1.5})})[0].verdict == box_verdict::outside);
     }
 }
 
@@ -166,7 +167,7 @@ TEST_CASE("an undefined output decides nothing, and nothing about the others") {
     e.measurements = {{0.5, 0, between(0, 1)}, {2, 1, between(0.9, 1.1)}};
     problem.experiments = {e};
     feasibility_test test(problem, {});
-    CHECK(test(point_box({1.0}), nullptr).verdict != box_verdict::outside);
+    CHECK(test.learn({point_box({1.0})})[0].verdict != box_verdict::outside);
     problem.experiments[0].measurements[1].bound = between(5, 6);
     feasibility_test strict(problem, {});
     CHECK(strict(point_box({1.0}), nullptr).verdict != box_verdict::inside);

@@ -94,10 +94,6 @@ public:
         }
     }
 
-    [[nodiscard]] answer operator()(box const& x, std::shared_ptr<knowledge const> const& known) {
-        auto result = judge(x, known);
-        return result.blind ? std::move(learn({x})[0]) : result;
-    }
     [[nodiscard]] answer judge(box const& x, std::shared_ptr<knowledge const> const& known) {
         std::vector<posed_question<knowledge>> const one{{&x, known}};
         return std::move(judge_all(one)[0]);

@@ -62,11 +62,6 @@ public:
     /// In the order of the sums: by experiment, in the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
 
-    [[nodiscard]] assessment<knowledge> operator()(box const& x,
-                                                   std::shared_ptr<knowledge const> const& known) {
-        auto result = judge(x, known);
-        return result.blind ? std::move(learn({x})[0]) : result;
-    }
     [[nodiscard]] assessment<knowledge> judge(box const& x,
                                               std::shared_ptr<knowledge const> const& known) const {
         assessment<knowledge> result{.rest = x};

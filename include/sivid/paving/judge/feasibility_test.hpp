@@ -131,12 +131,6 @@ public:
     /// In the order of time.
     [[nodiscard]] record const& record_of(std::size_t e) const { return records_[e]; }
 
-    [[nodiscard]] assessment<knowledge> operator()(box const& parameters,
-                                                   std::shared_ptr<knowledge const> const& known) {
-        auto result = judge(parameters, known);
-        return result.blind ? std::move(learn({parameters})[0]) : result;
-    }
-
     /// Decides and contracts by what is known, without integrating.
     [[nodiscard]] assessment<knowledge> judge(box const& parameters,
                                               std::shared_ptr<knowledge const> const& known) const {

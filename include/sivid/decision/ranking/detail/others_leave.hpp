@@ -85,11 +85,6 @@ public:
         }
         return results;
     }
-    [[nodiscard]] assessment<knowledge> operator()(box const& x,
-                                                   std::shared_ptr<knowledge const> const& known) {
-        auto result = judge(x, known);
-        return result.blind ? std::move(learn({x})[0]) : result;
-    }
     [[nodiscard]] std::size_t at_once() const { return others_.at_once(); }
     [[nodiscard]] bool cancelled() const { return others_.cancelled(); }
     [[nodiscard]] std::size_t integrations() const { return others_.integrations(); }

@@ -224,9 +224,9 @@ private:
     /// @param judged  boxes since the refinement began
     [[nodiscard]] bool rests(online_refinement const& how, paving_detail::hull_rest& rest,
                              std::size_t judged) const {
-        return rest(
-            judged, how.hull_gain, [this] { return hull_of_all(); },
-            [](box const&) { return true; });
+        return how.hull_gain > 0 && rest(
+                                        judged, how.hull_gain, [this] { return hull_of_all(); },
+                                        [](box const&) { return true; });
     }
 
     void judge_all(std::size_t until, work_limit const& limit) {

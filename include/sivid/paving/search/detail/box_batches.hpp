@@ -25,7 +25,8 @@ template <class Test>
 struct knowledge_of {
     using type = std::monostate;
 };
-template <learning_set_test Test>
+template <class Test>
+    requires requires { typename Test::knowledge; }
 struct knowledge_of<Test> {
     using type = typename Test::knowledge;
 };
@@ -57,6 +58,7 @@ public:
     template <class Frontier>
     box_batches(Test&, Frontier&, executor const&) {}
     [[nodiscard]] static bool hold_faces(subpaving const&, box const&, double) { return true; }
+    [[nodiscard]] static bool decide_none_of(std::vector<box> const&) { return false; }
 };
 
 /// Takes boxes from a frontier and has them judged and learnt about, in parallel where the test
@@ -151,6 +153,15 @@ public:
             if (!i->load.judged->blind) open.close(i->set);
         }
         return open.none();
+    }
+
+    /// Whether learning about these boxes neither decides nor narrows one of them.
+    [[nodiscard]] bool decide_none_of(std::vector<box> const& boxes) const {
+        auto const says = answers_about({boxes})[0];
+        for (std::size_t k = 0; k < boxes.size(); ++k)
+            if (says[k].verdict != box_verdict::undecided || !subset(boxes[k], says[k].rest))
+                return false;
+        return true;
     }
 
 private:

@@ -55,20 +55,20 @@ struct hull_rest {
     bool rested = false;
     std::size_t next_look = 8; ///< tests
 
-    /// @param gain  a side that lost less than this share of its width rests; 0: none ever does
+    /// @param gain  a side that lost no more than this share of its width rests
     /// @param hull  of what is left, called where a look is due
-    /// @param held  whether what touches the faces of that hull was seen sharply
-    /// @returns  true from the second such look on, also when asked again
-    template <class Hull, class Held>
+    /// @param ends  whether a hull that rests ends the search
+    /// @returns  what `ends` says from the second such look on, also when asked again
+    template <class Hull, class Ends>
     [[nodiscard]] bool operator()(std::size_t tests, double gain, Hull const& hull,
-                                  Held const& held) {
-        if (!(gain > 0) || tests < next_look) return false;
+                                  Ends const& ends) {
+        if (tests < next_look) return false;
         box now = hull();
         bool rests = true;
         for (std::size_t i = 0; i < now.size(); ++i) {
             rests = rests && width(now[i]) >= (1 - gain) * width(last[i]);
         }
-        if (rests && rested && held(now)) return true;
+        if (rests && rested && ends(now)) return true;
         rested = rests;
         next_look = (rests && now.size() > 2 ? 4 : 2) * tests;
         last = std::move(now);

@@ -6,12 +6,31 @@
 #include <sivid/paving/search/frontier.hpp>
 #include <sivid/space/box.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace sivid::paving_detail {
+
+/// Boxes in what is left, as small as some that a search ends with: one in the middle, others where
+/// most is excluded first, in corners.
+/// @param share  of the sides of `whole`
+[[nodiscard]] inline std::vector<box> smallest_boxes(box const& left, box const& whole,
+                                                     double share) {
+    std::vector<box> result(8, left);
+    for (std::size_t k = 0; k < result.size(); ++k) {
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            double const least = std::min(share * width(whole[i]), width(left[i]));
+            double const from = k == 0                ? mid(left[i]) - least / 2
+                                : (k >> (i % 3)) & 1U ? left[i].upper() - least
+                                                      : left[i].lower();
+            result[k][i] = intersect(interval(from, from + least), left[i]);
+        }
+    }
+    return result;
+}
 
 /// Which side of a box is split: none where all are as narrow as was asked for.
 struct split_rule {

@@ -43,11 +43,6 @@ public:
         early_ = !aids_.empty();
     }
 
-    [[nodiscard]] assessment<knowledge> operator()(box const& x,
-                                                   std::shared_ptr<knowledge const> const& known) {
-        auto result = judge(x, known);
-        return result.blind ? std::move(learn({x})[0]) : result;
-    }
     [[nodiscard]] assessment<knowledge> judge(box const& x,
                                               std::shared_ptr<knowledge const> const& known) const {
         return runs_->judge(x, known);

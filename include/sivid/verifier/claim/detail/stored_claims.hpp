@@ -474,7 +474,8 @@ inline check_finding late(std::string what) {
         return {found.what, check_finding::outcome::undecided,
                 "what the search was to end at is not stated"};
     }
-    if (r == stop_reason::cancelled || r == stop_reason::hulls_rest)
+    if (r == stop_reason::cancelled || r == stop_reason::hulls_rest ||
+        r == stop_reason::too_blurred)
         return {found.what, check_finding::outcome::nothing, "'" + words + "' leaves no trace"};
     return found;
 }
