@@ -108,10 +108,10 @@ TEST_CASE("the truth as a point is inside, a point that fails is outside") {
         auto& bound = broken.experiments[0].measurements[4].bound;
         bound = support::around(mid(bound) + 1, 0.02);
         feasibility_test strict(broken, {});
-        CHECK(strict(point_box(planted.truth), nullptr).verdict == box_verdict::outside);
+        CHECK(strict.learn({point_box(planted.truth)})[0].verdict == box_verdict::outside);
         broken.experiments[0].outliers = 1;
         feasibility_test tolerant(broken, {});
-        CHECK(tolerant(point_box(planted.truth), nullptr).verdict == box_verdict::inside);
+        CHECK(tolerant.learn({point_box(planted.truth)})[0].verdict == box_verdict::inside);
     }
 }
 
@@ -170,5 +170,5 @@ TEST_CASE("an undefined output decides nothing, and nothing about the others") {
     CHECK(test.learn({point_box({1.0})})[0].verdict != box_verdict::outside);
     problem.experiments[0].measurements[1].bound = between(5, 6);
     feasibility_test strict(problem, {});
-    CHECK(strict(point_box({1.0}), nullptr).verdict != box_verdict::inside);
+    CHECK(strict.learn({point_box({1.0})})[0].verdict != box_verdict::inside);
 }

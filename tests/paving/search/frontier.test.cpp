@@ -112,9 +112,13 @@ TEST_CASE("a hull rests at the second look in a row at which no side has shrunk"
     CHECK_FALSE(rest(127, 0.02, hull, always));
     CHECK(rest(128, 0.02, hull, always));
     CHECK(rest(128, 0.02, hull, always)); // also when asked again
-    paving_detail::hull_rest never{.last = hull()};
-    CHECK_FALSE(never(1000, 0, hull, always));
-    CHECK_FALSE(never(4000, 0, hull, always));
+    // Without a gain none but a hull that does not move at all.
+    paving_detail::hull_rest exact{.last = hull()};
+    CHECK_FALSE(exact(1000, 0, hull, always));
+    wide = std::nextafter(wide, 0);
+    CHECK_FALSE(exact(2000, 0, hull, always));
+    CHECK_FALSE(exact(4000, 0, hull, always));
+    CHECK(exact(8000, 0, hull, always));
     // What nobody saw sharply does not rest, however long nothing moves.
     paving_detail::hull_rest unseen{.last = hull()};
     bool seen = false;

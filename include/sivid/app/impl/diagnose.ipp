@@ -17,8 +17,13 @@
 #include <sivid/io/diagnosis_json.hpp>
 #include <sivid/io/file_set.hpp>
 #include <sivid/io/result/problem_digest.hpp>
+#include <sivid/model/affected_problem.hpp>
+#include <sivid/model/problem_text.hpp>
 #include <sivid/number/text/joined.hpp>
 #include <sivid/paving/identify.hpp>
+#include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/products/reduction.hpp>
+#include <sivid/paving/strategy/prior_contractor.hpp>
 #include <sivid/report/diagnosis_page.hpp>
 #include <sivid/report/diagnosis_words.hpp>
 #include <sivid/report/stored_page.hpp>
@@ -28,6 +33,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -352,6 +358,30 @@ private:
         }
     }
 
+    /// What is tried before the search: first the ranges that the diagnosis has proved, where they
+    /// are of the same model and these data, or a part of them.
+    [[nodiscard]] static strategy with_ranges(diagnosis_run const& run,
+                                              identification_problem const& problem) {
+        auto result = default_strategy();
+        auto const& known = run.answer_hull;
+        auto const effects = holdout::effects_of(run.candidates[run.answer], run.catalogue);
+        auto const of = affected(run.base, effects);
+        auto part = problem;
+        std::erase_if(part.experiments, [&](experiment const& e) {
+            return std::ranges::find(of.experiments, e.name, &experiment::name) ==
+                   of.experiments.end();
+        });
+        if (known.parameters.size() == 0 || problem_text(part) != problem_text(of)) return result;
+        auto const map = coordinates_of(problem);
+        auto const box = map ? map->forward(known.parameters, known.products) : known.parameters;
+        auto const within = [box](auto const& posed, auto const&) {
+            return intersect(posed.prior, box);
+        };
+        auto first = std::make_shared<prior_contractor>("ranges of the diagnosis", within);
+        result.steps.insert(result.steps.begin(), {.by = {std::move(first)}});
+        return result;
+    }
+
     /// The ranges of all parameters of the model that explains the data, as `identify` writes them,
     /// in the folder model.
     void bound_parameters(diagnosis_run const& run) {
@@ -373,6 +403,7 @@ private:
         search_task task(of_, told, nullptr);
         work_limit limit(std::min(left(), 0.25 * command_.budget), wanted);
         identify_options options;
+        options.strategy = with_ranges(run, task.problem);
         options.search.seconds = limit.seconds();
         options.search.keep_going = wanted;
         options.search.progress = [this](auto const& p) {

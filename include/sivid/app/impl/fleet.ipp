@@ -105,21 +105,28 @@ struct fleet_note {
 
 class fleet_task {
 public:
-    /// @throws input_error  for what is no data set
     fleet_task(std::filesystem::path dataset, std::filesystem::path const& out,
                std::vector<std::string> command, std::vector<std::string> options)
         : dataset_(std::move(dataset)),
           out_(out / name_of(dataset_)),
           command_(std::move(command)),
-          options_(std::move(options)),
-          digest_(dataset_digest(dataset_)) {}
+          options_(std::move(options)) {}
 
     [[nodiscard]] std::string name() const { return name_of(dataset_); }
     [[nodiscard]] std::filesystem::path const& dataset() const { return dataset_; }
     [[nodiscard]] std::filesystem::path const& out() const { return out_; }
-    /// Data and command: what a result is of.
+    /// What ranks must agree on. The data are read by who works on them: a fleet has many.
+    [[nodiscard]] std::string asked() const { return name() + words(); }
+    /// Data and command: what a result is of. Reads the data.
     [[nodiscard]] std::string key() const {
-        std::string text = digest_;
+        try {
+            return dataset_digest(dataset_) + words();
+        } catch (input_error const&) {
+            return "unreadable" + words(); // the command says why
+        }
+    }
+    [[nodiscard]] std::string words() const {
+        std::string text;
         for (auto const* list : {&command_, &options_}) {
             text += " |";
             for (auto const& w : *list) text += " " + w;
@@ -128,12 +135,13 @@ public:
     }
 
     /// How the program ended on these data, with this command; nothing where it has not.
-    [[nodiscard]] std::optional<fleet_note> note() const {
+    /// @param known  whether that is known of the note: the data are not read again
+    [[nodiscard]] std::optional<fleet_note> note(bool known) const {
         std::error_code fault;
         if (!std::filesystem::exists(note_file(), fault)) return std::nullopt;
         try {
             auto const j = read_json(note_file());
-            if (j.at("format").string() != format || j.at("of").raw_string() != key())
+            if (j.at("format").string() != format || !(known || j.at("of").raw_string() == key()))
                 return std::nullopt;
             return fleet_note{static_cast<int>(*nearest(j.at("code").number())),
                               *nearest(j.at("seconds").number())};
@@ -143,15 +151,18 @@ public:
     }
     /// Failures are tried again.
     [[nodiscard]] bool is_finished() const {
-        auto const n = note();
-        return n && n->code != bad_input && n->code != internal_error && n->code < 126;
+        auto const n = note(false);
+        return n && is_result(*n);
+    }
+    [[nodiscard]] static bool is_result(fleet_note const& n) {
+        return n.code != bad_input && n.code != internal_error && n.code < 126;
     }
 
     /// Runs it. @returns  how it ended, in words
     [[nodiscard]] std::string run(std::function<bool()> const& wanted) const {
         stopwatch const clock;
+        std::filesystem::remove(note_file()); // of before, whatever fails from here on
         prepare_folder(out_);
-        std::filesystem::remove(note_file());
         auto words = command_;
         words.insert(words.end(), {dataset_.string(), "--out", out_.string(), "--quiet"});
         words.insert(words.end(), options_.begin(), options_.end());
@@ -181,7 +192,6 @@ private:
 
     std::filesystem::path dataset_, out_;
     std::vector<std::string> command_, options_;
-    std::string digest_;
 };
 
 /// The data sets in these folders, by their names; a folder without dataset.json stands for those
@@ -194,10 +204,13 @@ inline std::vector<fleet_task> fleet_tasks(std::vector<std::filesystem::path> co
     namespace fs = std::filesystem;
     std::vector<fs::path> found;
     for (auto const& folder : folders) {
-        if (fs::exists(folder / "dataset.json") || !fs::is_directory(folder)) {
+        if (fs::exists(folder / "dataset.json")) {
             found.push_back(folder);
             continue;
         }
+        if (!fs::is_directory(folder))
+            throw bad_request(folder.string() + " is no folder: name folders that hold "
+                                                "dataset.json, or folders of such");
         for (auto const& entry : fs::directory_iterator{folder}) {
             if (fs::exists(entry.path() / "dataset.json")) found.push_back(entry.path());
         }
@@ -258,12 +271,12 @@ inline void fill_diagnosis(fleet_row& row, json_value const& j) {
     row.high = number_text(bounds.elements().at(1));
 }
 
-inline fleet_row row_of(fleet_task const& task) {
+inline fleet_row row_of(fleet_task const& task, bool known) {
     fleet_row row{task.name(), "missing", "no result yet"};
-    auto const note = task.note();
+    auto const note = task.note(known);
     if (!note) return row;
     row.note = *note;
-    row.state = task.is_finished() ? "result" : "failed";
+    row.state = task.is_result(*note) ? "result" : "failed";
     row.found =
         "ended with " + std::to_string(note->code) + ": see " + (task.out() / "log.txt").string();
     if (row.state == "failed") return row;
@@ -288,12 +301,13 @@ inline std::string in_csv(std::string const& text) {
 }
 
 /// Writes the summary of all data sets of the list, whoever worked on them, and prints it.
+/// @param known  of which the notes are known to be of these data and this command
 /// @returns an exit code
 /// @throws output_error
-inline int write_fleet_summary(std::vector<fleet_task> const& list,
+inline int write_fleet_summary(std::vector<fleet_task> const& list, std::vector<bool> const& known,
                                std::filesystem::path const& out) {
     std::vector<fleet_row> rows;
-    for (auto const& task : list) rows.push_back(row_of(task));
+    for (std::size_t k = 0; k < list.size(); ++k) rows.push_back(row_of(list[k], known[k]));
     std::string csv = "dataset,state,found,bounds_of,lower,upper,exit_code,seconds\n";
     json_writer json;
     json.begin_object().members("format", "sivid-fleet-summary-1").key("datasets").begin_array();
@@ -356,18 +370,21 @@ inline void work_on(std::vector<fleet_task> const& list, std::string const& dige
 /// What must be the same on all ranks.
 inline std::string digest_of(std::vector<fleet_task> const& list) {
     std::string text;
-    for (auto const& t : list) text += t.key() + "\n";
+    for (auto const& t : list) text += t.asked() + "\n";
     return sha256(text);
 }
 
 /// Those of the list that the command is for and that have no result of it yet.
+/// @param known  those that have one are marked here
 inline std::vector<std::size_t> open_tasks(std::vector<fleet_task> const& list,
-                                           fleet_command const& c, progress_line& progress) {
+                                           fleet_command const& c, std::vector<bool>& known,
+                                           progress_line& progress) {
     std::vector<std::size_t> open;
     std::size_t finished = 0;
     for (std::size_t k = 0; k < list.size(); ++k) {
         if (c.task && k % c.task->second != c.task->first - 1) continue;
         if (!c.again && list[k].is_finished()) {
+            known[k] = true;
             ++finished;
         } else {
             open.push_back(k);
@@ -394,7 +411,8 @@ SIVID_DECL int run_fleet(fleet_command const& c) {
 #endif
     prepare_folder(c.out);
     progress_line progress(c.quiet);
-    auto const open = detail::open_tasks(list, c, progress);
+    std::vector<bool> known(list.size());
+    auto const open = detail::open_tasks(list, c, known, progress);
     // Threads of this process that start one process each, and the other ranks.
     cluster::memory_transport inside(c.jobs);
     cluster::transport* others = inside.of_first.get();
@@ -422,6 +440,7 @@ SIVID_DECL int run_fleet(fleet_command const& c) {
         how.ahead = 1; // a second one would wait for a long first one
         how.patience = 120;
         how.arrived = [&](std::size_t task, cluster::worker_pool::answer const& a) {
+            known[open[task]] = true;
             progress.note(std::to_string(++count) + " of " + std::to_string(open.size()) + ": " +
                           list[open[task]].name() + ": " + a.body);
         };
@@ -433,7 +452,7 @@ SIVID_DECL int run_fleet(fleet_command const& c) {
     }
     end_all();
     progress.finish();
-    return detail::write_fleet_summary(list, c.out);
+    return detail::write_fleet_summary(list, known, c.out);
 }
 
 } // namespace sivid::app
