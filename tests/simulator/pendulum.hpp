@@ -71,10 +71,6 @@ inline constexpr std::string_view file = R"(<?xml version="1.0" encoding="utf-8"
 </mujoco>
 )";
 
-inline constexpr std::string_view mapping = R"({"format": "sivid-export-1", "attributes": [
-  {"joint": "elbow", "attribute": "damping", "value": "Fv"},
-  {"joint": "elbow", "attribute": "armature", "value": "rotor*ratio^2", "unit": "kg m^2"}]})";
-
 inline sivid::app::robot robot_of(std::string_view text) {
     io_support::temporary_folder const folder;
     folder.write("pendulum.toml", text);
@@ -87,7 +83,7 @@ class bench {
 public:
     explicit bench(std::string_view text = model) : robot{robot_of(text)} {
         folder.write("arm.xml", file);
-        folder.write("map.json", mapping);
+        fs::copy_file(SIVID_SOURCE_DIR "/tests/simulator/map.json", at("map.json"));
     }
     /// @param readings  every 0.05 s, from 0.8 rad at rest
     void record(std::vector<double> const& readings, double error,
