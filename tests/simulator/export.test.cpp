@@ -182,6 +182,30 @@ TEST_CASE("a table, and the arguments of actuators of Isaac Lab") {
     CHECK(told["attributes"][1]["unit"] == "steps of 0.005 s");
 }
 
+TEST_CASE(
+    "a delay that a diagnosis finds goes into the note, in steps where the simulator has such") {
+    std::string late{incomplete};
+    late += "[effect.late]\nkind = \"sensor_latency\"\nof = \"q\"\nprior = \"[0, 0.1] s\"\n";
+    bench const b(late);
+    auto readings = swing(0, 0, 0.002, 0.02);
+    b.record(readings, 0.0021, R"("weight": {"prior": [0.97, 0.99], "unit": "N m"})");
+    auto const found = b.run({"diagnose", b.at("data"), "--out", b.at("out"), "--quiet", "--budget",
+                              "6", "--threads", "1"});
+    CAPTURE(found.out, found.err);
+    REQUIRE(found.code == 0);
+    b.folder.write("map.json", R"json({"format": "sivid-export-1", "attributes": [
+      {"body": "link", "attribute": "mass", "value": "weight/(9.81*0.2)", "unit": "kg"},
+      {"joint": "elbow", "attribute": "delay", "value": "late.tau", "step": 0.002}]})json");
+    auto const r = b.write();
+    CAPTURE(r.out, r.err);
+    REQUIRE(r.code == 0);
+    CHECK_THAT(r.out, Contains("effect: late") &&
+                          Contains("mjcf cannot say it: joint elbow delay 10 steps of 0.002 s of "
+                                   "late.tau, proved within [9, 11]") &&
+                          Contains("it rests on: delayed times are rounded"));
+    CHECK_THAT(b.folder.read("new.xml"), Contains("mass=\"0.499"));
+}
+
 TEST_CASE("what is not proved is not written, with the exit code of the result") {
     identified const b;
     auto stored = b.json("out/result.json");
@@ -228,6 +252,7 @@ TEST_CASE("files that are asked for wrongly, and in place of what is read") {
     b.refused(b.write("out", "arm.xml"), 2, "is read: name another file");
     CHECK(b.folder.read("arm.xml") == file);
     b.refused(b.write("out", "out/result.json"), 2, "is read");
+    b.refused(b.write("out", "out/boxes.csv"), 2, "is read");
     fs::create_hard_link(b.at("arm.xml"), b.at("link.xml"));
     b.refused(b.write("out", "link.xml"), 2, "is read");
     b.refused(b.write("out", "data"), 2, "a folder has this name");

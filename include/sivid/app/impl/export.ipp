@@ -247,9 +247,11 @@ private:
         if (command_.map.empty() && format_ != export_format::json)
             throw bad_request(to + " needs --map: which constant is which attribute");
         if (command_.out.filename().empty()) throw output_error("--out is no file: name one");
-        for (auto const& read :
-             {command_.into, command_.map, std::filesystem::path(of_.file),
-              command_.result / "result.json", command_.result / "diagnosis.json"})
+        std::vector<std::filesystem::path> all{command_.into, command_.map, of_.file};
+        for (auto const* name : {"result.json", "boxes.csv", "products.csv", "certificates.csv",
+                                 "outputs.csv", "diagnosis.json"})
+            all.push_back(command_.result / name);
+        for (auto const& read : all)
             for (auto const* end : {"", ".note.txt", ".ranges.json"}) {
                 std::error_code fault;
                 auto const out = command_.out.string() + end;

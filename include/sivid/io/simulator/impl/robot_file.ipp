@@ -45,14 +45,11 @@ public:
 
     void change(robot_change const& c) {
         auto const& rule = *c.what->rule;
-        auto const named = element_named(*c.what);
         if (rule.kind == "body") require_own_inertia();
-        auto at = named;
-        std::string_view path = rule.path;
-        while (!path.empty()) {
-            auto const slash = std::min(path.find('/'), path.size());
-            auto const name = path.substr(0, slash);
-            path.remove_prefix(std::min(slash + 1, path.size()));
+        auto at = element_named(*c.what);
+        for (auto path = rule.path; !path.empty();) {
+            auto const name = path.substr(0, path.find('/'));
+            path.remove_prefix(std::min(name.size() + 1, path.size()));
             auto const found = children(at, name);
             if (found.empty() && name == "dynamics") return join(made_[at], rule.own, c);
             if (found.size() != 1)
@@ -106,7 +103,8 @@ private:
     struct joins {
         std::string attributes, words;
         [[nodiscard]] std::string comment() const {
-            auto text = words;
+            auto text = words; // a comment holds no --, and the file may be no UTF-8
+            for (auto& c : text) c = static_cast<unsigned char>(c) < 0x80 ? c : '?';
             for (auto at = text.find("--"); at != text.npos; at = text.find("--", at + 1))
                 text.insert(at + 1, " ");
             return " <!-- sivid: " + text + " -->";
@@ -122,16 +120,6 @@ private:
         auto const& e = of_->elements[at];
         auto const& own = c.what->rule->own;
         auto const* const there = e.find(own);
-        for (auto const* other : {"diaginertia", "fullinertia"})
-            if (std::string_view{other} != own && own.ends_with("inertia") && mjcf_ &&
-                e.find(other) != nullptr)
-                of_->fail(e.line, text_of("the inertial has ", other, ", which excludes ", own),
-                          text_of("map ", other, " in its place, or take it out of the file"));
-        auto const limited = std::string{own.substr(0, own.size() - 5)} + "limited";
-        if (own.ends_with("range") && e.value(limited) != "true")
-            notes_.push_back(c.what->title() + " acts where " + limited +
-                             "=\"true\" stands (line " + std::to_string(e.line) +
-                             "), or with the compiler's autolimits");
         join(joined_[at], there == nullptr && !c.what->part ? own : std::string_view{}, c);
         if (there == nullptr) {
             if (c.what->part)
@@ -155,7 +143,7 @@ private:
             if (of_->elements[k].parent == of && of_->elements[k].name == name) result.push_back(k);
         return result;
     }
-    /// The n-th number of an attribute.
+    /// Where the n-th number of an attribute stands.
     [[nodiscard]] std::pair<std::size_t, std::size_t>
     number_within(xml_element::attribute const& a, xml_element const& e,
                   export_entry const& what) const {
