@@ -204,6 +204,31 @@ TEST_CASE(
                                    "late.tau, proved within [9, 11]") &&
                           Contains("it rests on: delayed times are rounded"));
     CHECK_THAT(b.folder.read("new.xml"), Contains("mass=\"0.499"));
+
+    auto const stored = nlohmann::json::parse(b.folder.read("out/diagnosis.json"));
+    auto const forge = [&](int code, std::string const& words, auto const& change) {
+        auto other = stored;
+        change(other);
+        b.folder.write("out/diagnosis.json", other.dump());
+        auto const forged = b.write("out", "forged.xml");
+        CAPTURE(forged.out, forged.err);
+        CHECK(forged.code == code);
+        CHECK_THAT(forged.err, Contains(words));
+        CHECK_FALSE(fs::exists(b.at("forged.xml")));
+    };
+    using nlohmann::json;
+    forge(3, "the answer is open", [](json& j) { j["answer"]["kind"] = "open"; });
+    forge(3, "the answer is unexplained", [](json& j) { j["answer"]["kind"] = "unexplained"; });
+    forge(3, "nothing is proved", [](json& j) { j["answer"]["kind"] = "none"; });
+    forge(3, "nothing is proved", [](json& j) { j["causes"][0]["verdict"] = "undecided"; });
+    forge(5, "not what its data prove",
+          [](json& j) { j["causes"][0]["witness"]["parameters"]["late.tau"] = 0.05; });
+    forge(5, "no point of the prior",
+          [](json& j) { j["causes"][0]["witness"]["parameters"].erase("late.tau"); });
+    forge(5, "outside its ranges", [](json& j) {
+        j["answer"]["constants"]["weight"]["hull"] = {0.97, 0.971};
+    });
+    forge(2, "another model", [](json& j) { j["problem"] = std::string(64, 'a'); });
 }
 
 TEST_CASE("what is not proved is not written, with the exit code of the result") {

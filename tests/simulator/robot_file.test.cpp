@@ -83,6 +83,7 @@ TEST_CASE("broken and foreign XML is told with its line") {
     std::string deep = "<mujoco>";
     for (int k = 0; k < 100'000; ++k) deep += "<a>";
     says(deep, "no well-formed XML");
+    says(joint("name='j'", std::string(20'000'000, ' ')), "larger than 20 MB");
 }
 
 TEST_CASE("elements that are not there, there twice, or refer to others") {

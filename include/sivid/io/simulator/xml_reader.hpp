@@ -34,7 +34,7 @@ public:
         if (std::filesystem::file_size(file, fault) == text.size() + 3 && !fault)
             text.insert(0, "\xEF\xBB\xBF"); // which read_text leaves out
         if (text.size() > largest)
-            result_.fail(0, "larger than 100 MB", "give a robot's description without its meshes");
+            result_.fail(0, "larger than 20 MB", "give a robot's description without its meshes");
         if (text.find('\0') != std::string::npos)
             result_.fail(0, "UTF-16, or no text", "save it as UTF-8");
     }
@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t largest = 100'000'000; ///< [byte]
+    static constexpr std::size_t largest = 20'000'000; ///< [byte]
     struct frees {
         void operator()(XML_ParserStruct* p) const { XML_ParserFree(p); }
     };
@@ -108,7 +108,7 @@ private:
 };
 
 /// Reads an XML file with the places of all its elements and attributes.
-/// @throws input_error  for what is not well formed, is UTF-16, larger than 100 MB, or has a
+/// @throws input_error  for what is not well formed, is UTF-16, larger than 20 MB, or has a
 /// DOCTYPE
 /// @cost  memory a few times that of the text
 [[nodiscard]] inline xml_document read_xml(std::filesystem::path const& file) {
