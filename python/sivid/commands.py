@@ -36,6 +36,7 @@ __all__ = [
     "design",
     "diagnose",
     "disturbance",
+    "export",
     "generate",
     "identify",
     "predict",
@@ -272,6 +273,35 @@ def certificate(result: Identification, file: File, *, progress: Progress = None
     if not isinstance(result, Identification):
         raise TypeError("a certificate is of the result of identify, or of the identification of a diagnosis")
     words = ["certificate", str(result.folder), "--out", os.fspath(file), *_words(options)]
+    return _answer(
+        result.model, words, progress, lambda answer: Result(result.model, Workplace(result.folder), answer, result)
+    )
+
+
+def export(
+    result: Identification | Diagnosis,
+    file: File,
+    to: str = "json",
+    *,
+    map: dict | File | None = None,
+    into: File | None = None,
+    progress: Progress = None,
+    **options,
+) -> Result:
+    """Writes a parameter that is proved to explain the data, with the proved ranges: ``to="json"`` a table, ``"mjcf"``
+    or ``"urdf"`` the user's file ``into`` with changed attributes, ``"isaaclab"`` arguments of actuators. ``map``: which
+    constant is which attribute, a dictionary or a file (sivid-export-1). Notes and ranges stand beside ``file``.
+    ``code`` is 0, or 3, 4, 5 where nothing was written, with a warning that says why. Option: ``dataset``.
+    """
+    if not isinstance(result, (Identification, Diagnosis)):
+        raise TypeError("export takes the result of identify or of diagnose")
+    place = Workplace()
+    if isinstance(map, dict):
+        own = place.folder / "map.json"
+        own.write_text(json.dumps({"format": "sivid-export-1", **map}), encoding="utf-8")
+        map = own
+    words = ["export", str(result.folder), "--out", os.fspath(file)]
+    words += _words({"to": to, "map": map and os.fspath(map), "into": into and os.fspath(into), **options})
     return _answer(
         result.model, words, progress, lambda answer: Result(result.model, Workplace(result.folder), answer, result)
     )

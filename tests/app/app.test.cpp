@@ -36,7 +36,7 @@ TEST_CASE("every command explains itself with an example") {
     for (std::string const command :
          {"import", "simulate", "generate", "identify", "online", "confidence", "check",
           "certificate", "diagnose", "predict", "verify", "control", "design", "rank",
-          "disturbance", "report", "describe", "fleet"}) {
+          "disturbance", "report", "export", "describe", "fleet"}) {
         CAPTURE(command);
         CHECK_THAT(all.out, ContainsSubstring(command));
         auto const one = run({command, "--help"});

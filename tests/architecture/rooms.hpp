@@ -31,7 +31,7 @@ inline std::map<std::string_view, std::vector<std::string_view>> const rooms{
       "disturbance"}},
     {"decision", {"requirement", "motion", "ranking", "design"}},
     {"diagnosis", {"sensor", "candidate", "gap", "hold_out", "claim"}},
-    {"io", {"text", "dataset", "result"}},
+    {"io", {"text", "dataset", "result", "simulator"}},
     {"verifier", {"proof", "claim"}},
     {"importing", {"mapping", "table", "scenario"}},
     {"report", {"draw"}}};

@@ -113,6 +113,19 @@ class Identify(Case):
         file.write_text(file.read_text().replace("hull\tK", "hull\tr"))
         self.assertEqual(subprocess.run([checker, file], capture_output=True).returncode, 2)
 
+    def test_an_answer_is_written_for_a_simulator(self):
+        found = sivid.identify(sivid.Model.read(GROWTH), growth_data(), budget=10, accuracy=0.3)
+        file = self.folder / "table.json"
+        entry = {"joint": "tank", "attribute": "damping", "value": "r*2", "unit": "1/h"}
+        made = sivid.export(found, file, map={"attributes": [entry]})
+        self.assertEqual(made.code, 0, made.text)
+        table = json.loads(file.read_text())
+        self.assertEqual(table["constants"]["r"]["value"], found.witness["r"])
+        self.assertEqual(table["attributes"][0]["value"][0], 2 * table["constants"]["r"]["value"])
+        self.assertTrue((self.folder / "table.json.note.txt").is_file())
+        self.refused("needs --into", lambda: sivid.export(found, file, "mjcf", map={"attributes": [entry]}))
+        self.assertRaises(TypeError, sivid.export, made, file)
+
     def test_errors_have_the_words_of_the_program(self):
         model = sivid.Model.read(GROWTH)
         self.refused(

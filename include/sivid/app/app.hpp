@@ -13,8 +13,8 @@ namespace sivid::app {
 
 /// The whole program of a robot, `main` but for its name: `PROGRAM COMMAND ...`, with the commands
 /// import, simulate, generate, identify, online, confidence, check, certificate, diagnose, predict,
-/// verify, control, design, rank, disturbance, report, describe and fleet (`commands.hpp`), and the
-/// robot's own. `PROGRAM COMMAND --help` lists options and an example.
+/// verify, control, design, rank, disturbance, report, export, describe and fleet (`commands.hpp`),
+/// and the robot's own. `PROGRAM COMMAND --help` lists options and an example.
 ///   What it prints on the standard output are results; progress and errors go to the other one.
 ///   The first Ctrl-C ends the work, and what is proved by then is written; a second one ends the
 /// program. Files are written whole or not at all.
@@ -44,6 +44,7 @@ struct command_answer {
 #include <sivid/app/impl/decide.ipp>
 #include <sivid/app/impl/design.ipp>
 #include <sivid/app/impl/diagnose.ipp>
+#include <sivid/app/impl/export.ipp>
 #include <sivid/app/impl/fleet.ipp>
 #include <sivid/app/impl/identify.ipp>
 #include <sivid/app/impl/rank.ipp>

@@ -191,6 +191,19 @@ struct report_command : command {
 };
 [[nodiscard]] SIVID_DECL int run(robot const& r, report_command const& c);
 
+/// `export`: a parameter that explains the data, in a simulator's file.
+struct export_command : command { ///< `out`: the file that is written, notes and ranges beside it
+    std::filesystem::path result;
+    std::filesystem::path dataset; ///< empty: where the result says
+    std::filesystem::path into;    ///< the file to change
+    std::filesystem::path map;     ///< sivid-export-1; empty only for JSON
+    std::string to;                ///< mjcf, urdf, isaaclab or json
+};
+/// Proves the parameter anew before it is written.
+/// Ends with 0 when it is written, else with `undecided`, `inconsistent` or `refuted`, as the
+/// result.
+[[nodiscard]] SIVID_DECL int run(robot const& r, export_command const& c);
+
 struct describe_command : command {
     bool dot = false; ///< in the DOT language of Graphviz
     /// Of the bound model: its constants are folded, these stay; empty for the model as written.

@@ -17,6 +17,8 @@
 #include <sivid/io/result/impl/certificates_csv.ipp>
 #include <sivid/io/result/impl/problem_digest.ipp>
 #include <sivid/io/result/impl/same_problem.ipp>
+#include <sivid/io/simulator/impl/export_mapping.ipp>
+#include <sivid/io/simulator/impl/robot_file.ipp>
 #include <sivid/io/text/impl/exact_decimal.ipp>
 #include <sivid/io/text/impl/json_document.ipp>
 

@@ -166,6 +166,7 @@ public:
         add_rank();
         add_disturbance();
         add_report();
+        add_export();
         add_describe();
         add_fleet();
         for (auto const& own : r.commands) app_.add_subcommand(own.name, own.about);
@@ -805,6 +806,28 @@ private:
         add_out(*s, c, "the pages; not given: that of the result");
     }
 
+    void add_export() {
+        auto& c = export_;
+        auto* const s = add(c, "export",
+                            "a parameter that is proved to explain the data, in a simulator's file",
+                            "result --to mjcf --into arm.xml --map map.json --out arm_fitted.xml",
+                            [this, &c] { return run(of_, c); });
+        s->add_option("result", c.result, "folder with result.json, or with diagnosis.json")
+            ->required();
+        s->add_option("--to", c.to, "what is written")
+            ->required()
+            ->check(CLI::IsMember({"mjcf", "urdf", "isaaclab", "json"}));
+        s->add_option("--into", c.into, "the MJCF or URDF file to change; it stays as it is");
+        s->add_option("--map", c.map, "which constant is which attribute (sivid-export-1)");
+        s->add_option("--out", c.out,
+                      "the file to write; OUT.note.txt and OUT.ranges.json stand beside it")
+            ->required();
+        s->add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
+        add_exit_codes(*s, "0 written, 2 bad input, 3 no parameter is proved to explain the data, "
+                           "4 none does (proved), 5 refuted: the result is not what its data "
+                           "prove.");
+    }
+
     void add_describe() {
         auto& c = describe_;
         auto* const s = add(c, "describe",
@@ -881,6 +904,7 @@ private:
     rank_command rank_;
     disturbance_command disturbance_;
     report_command report_;
+    export_command export_;
     describe_command describe_;
     fleet_command fleet_;
     std::string fleet_of_, fleet_task_, fleet_options_;

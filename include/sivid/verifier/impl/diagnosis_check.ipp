@@ -78,29 +78,6 @@ namespace io_detail {
 
 } // namespace io_detail
 
-/// The point that a witness names, if it is one of the problem: parameters of the prior, allowed
-/// starts. States that effects added start where the parameters say.
-[[nodiscard]] inline std::optional<approximate_fit> point_of(identification_problem p,
-                                                             named_witness const& w) {
-    for (auto& e : p.experiments)
-        for (auto const& added : p.model.added_states)
-            e.initial[added.state] = interval_traits<interval>::entire();
-    auto const ranges = [](std::vector<named_estimate> const& all) {
-        io_detail::named_ranges result;
-        for (auto const& x : all) result[x.name] = interval(x.value);
-        return result;
-    };
-    std::map<std::string, io_detail::named_ranges> initial;
-    for (auto const& start : w.starts) initial[start.scenario] = ranges(start.states);
-    std::string fault;
-    auto const found = io_detail::motion_by_names(p, ranges(w.parameters), initial, fault);
-    if (!found) return std::nullopt;
-    approximate_fit result;
-    result.parameters = mid(found->parameters);
-    for (auto const& start : found->starts) result.starts.push_back(mid(start));
-    return result;
-}
-
 /// Proofs about the least factor by which bounds must grow until a parameter explains the data, by
 /// the provers of the diagnosis.
 class inflation_proof {
@@ -116,7 +93,7 @@ public:
     [[nodiscard]] outcome at_most(identification_problem const& p, named_witness const& w,
                                   double most,
                                   std::vector<std::string>* assumptions = nullptr) const {
-        auto const point = point_of(p, w);
+        auto const point = io_detail::point_of(p, w);
         if (!point) return outcome::refuted;
         auto const proved = verify_at(p, *point, test_);
         if (assumptions != nullptr) *assumptions = proved.assumptions;
@@ -594,7 +571,7 @@ private:
     [[nodiscard]] static bool is_moved(identification_problem const& poorer, named_witness const& w,
                                        identification_problem const& p, named_witness const& own) {
         auto const how = embedded(poorer, p);
-        auto const from = point_of(poorer, w), at = point_of(p, own);
+        auto const from = io_detail::point_of(poorer, w), at = io_detail::point_of(p, own);
         if (!how || !from || !at || from->starts != at->starts) return false;
         for (std::size_t j = 0; j < how->size(); ++j) {
             auto const& u = (*how)[j];

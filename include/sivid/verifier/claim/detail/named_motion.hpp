@@ -2,6 +2,8 @@
 #ifndef SIVID_VERIFIER_CLAIM_DETAIL_NAMED_MOTION_HPP
 #define SIVID_VERIFIER_CLAIM_DETAIL_NAMED_MOTION_HPP
 
+#include <sivid/approximate/approximate_fit.hpp>
+#include <sivid/diagnosis/diagnosis.hpp>
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/space/box.hpp>
@@ -69,6 +71,28 @@ inline std::optional<named_motion> witness_motion(identification_problem const& 
     for (auto const& [scenario, values] : w.initial)
         initial[scenario] = {values.begin(), values.end()};
     return motion_by_names(problem, {w.parameters.begin(), w.parameters.end()}, initial, fault);
+}
+
+/// The point that a witness names, if it is one of the problem: parameters of the prior, allowed
+/// starts. States that effects added start where the parameters say.
+inline std::optional<approximate_fit> point_of(identification_problem p, named_witness const& w) {
+    for (auto& e : p.experiments)
+        for (auto const& added : p.model.added_states)
+            e.initial[added.state] = interval_traits<interval>::entire();
+    auto const ranges = [](std::vector<named_estimate> const& all) {
+        named_ranges result;
+        for (auto const& x : all) result[x.name] = interval(x.value);
+        return result;
+    };
+    std::map<std::string, named_ranges> initial;
+    for (auto const& start : w.starts) initial[start.scenario] = ranges(start.states);
+    std::string fault;
+    auto const found = motion_by_names(p, ranges(w.parameters), initial, fault);
+    if (!found) return std::nullopt;
+    approximate_fit result;
+    result.parameters = mid(found->parameters);
+    for (auto const& start : found->starts) result.starts.push_back(mid(start));
+    return result;
 }
 
 } // namespace sivid::io_detail
