@@ -604,7 +604,16 @@ TEST_CASE("diagnose says where, which and how far, ends with 0 whatever it finds
     CHECK_THAT(r.err, ContainsSubstring("a gap is proved"));
     CHECK_THAT(r.out, ContainsSubstring("answer: rudder_lag (explains)") &&
                           ContainsSubstring("ranges of all parameters"));
-    CHECK(json_of(out / "model/result.json")["effects"] == nlohmann::json{"rudder_lag"});
+    // What the diagnosis has proved of a parameter is where the search of all begins.
+    auto const model = json_of(out / "model/result.json");
+    CHECK(model["effects"] == nlohmann::json{"rudder_lag"});
+    auto const told = found["answer"]["constants"];
+    for (auto const& name : {"rudder_lag.tau", "Sv"}) {
+        auto const& known = told[name]["hull"];
+        auto const& hull = model["parameters"][name]["hull"];
+        CHECK(hull[0].get<double>() >= known[0].get<double>() * (1 - 1e-4)); // rounded outward
+        CHECK(hull[1].get<double>() <= known[1].get<double>() * (1 + 1e-4));
+    }
 
     r = run({"diagnose", yard, "--out", out.string(), "--budget", "0", "--quiet"});
     CHECK(r.code == 3);
