@@ -44,6 +44,8 @@ function(sivid_install_pkgconfig component description requires)
         set(cflags " -DSIVID_HAS_TOML=1")
     elseif(component STREQUAL "matlab")
         set(cflags " -DSIVID_HAS_MATIO=1")
+    elseif(component STREQUAL "urdf")
+        set(cflags " -DSIVID_HAS_URDF=1")
     elseif(component STREQUAL "cluster")
         set(cflags " -DSIVID_HAS_MPI=1")
     endif()
@@ -73,6 +75,9 @@ foreach(component IN LISTS sivid_components)
     elseif(component STREQUAL "matlab")
         sivid_install_pkgconfig(matlab "Files of MATLAB as data sets of sivid"
                                 "sivid-importing = ${PROJECT_VERSION}, matio, zlib")
+    elseif(component STREQUAL "urdf")
+        sivid_install_pkgconfig(urdf "Descriptions of robots as models of sivid"
+                                "sivid-importing = ${PROJECT_VERSION}, urdfdom, tinyxml")
     elseif(component STREQUAL "text")
         sivid_install_pkgconfig(text "Models of sivid as text (needs the headers of toml++, too)"
                                 "sivid-io = ${PROJECT_VERSION}")
@@ -108,6 +113,7 @@ sivid_write_version_file("${PROJECT_BINARY_DIR}/sividConfigVersion.cmake" "${PRO
 install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/sividConfigVersion.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/find_mpi.cmake" "${CMAKE_CURRENT_LIST_DIR}/find_matio.cmake"
+        "${CMAKE_CURRENT_LIST_DIR}/find_urdf.cmake"
         "${CMAKE_CURRENT_LIST_DIR}/app.cmake"
         "${CMAKE_CURRENT_LIST_DIR}/find_toml.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)

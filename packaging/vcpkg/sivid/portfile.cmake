@@ -14,6 +14,7 @@ endif()
 # What a feature does not ask for is not looked for, either.
 list(APPEND options -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON)   # sivid::cluster is no feature here
 list(APPEND options -DSIVID_WITH_MATIO=OFF)               # nor is sivid::matlab
+list(APPEND options -DSIVID_WITH_URDF=OFF)                # nor is sivid::urdf
 list(APPEND options -DSIVID_WITH_TOML=OFF)                # nor is sivid::text
 foreach(feature_package IN ITEMS io:nlohmann_json parallel:TBB)
     string(REPLACE ":" ";" pair "${feature_package}")
