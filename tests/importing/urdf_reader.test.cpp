@@ -70,8 +70,8 @@ TEST_CASE("links that are fixed together are one body") {
     REQUIRE(fixed.joints.size() == 2);
     auto const& c = fixed.joints[1].inertial;
     CHECK(c[0] == 1);
-    CHECK(c[1] == 0.096 + 0.2 * 0.35);
-    CHECK(c[6] == Approx(0.01752 + 1e-4 + 0.2 * 0.35 * 0.35));
+    CHECK(c[1] == 0.166);
+    CHECK_THAT(c[6], WithinRel(0.01752 + 1e-4 + 0.2 * 0.35 * 0.35, 1e-12));
     // The same where a joint that moves is taken as fixed.
     auto const held = read(with_more(with(tool, "TYPE", "continuous")), {.fixed = {"flange"}});
     CHECK(held.joints[1].inertial == c);
@@ -88,7 +88,7 @@ TEST_CASE("what has no place in an open chain of rigid bodies is refused by its 
                     "name=\"elbow\" type=\"" + other + "\"");
     };
     std::vector<std::pair<std::string, std::string>> const bad{
-        {with_more("<spring k=\"1\"/>"), "line 19: an unknown element <spring> in <robot 'arm'>"},
+        {with_more("<spring k=\"1\"/>"), "line 15: an unknown element <spring> in <robot 'arm'>"},
         {with_more("<xacro:macro/>"), "expand the file first"},
         {joint("<spring/>"), "an unknown element <spring> in <joint 'elbow'>"},
         {joint(elbow_limit), "a second <limit> in <joint 'elbow'>"},
@@ -112,7 +112,7 @@ TEST_CASE("what has no place in an open chain of rigid bodies is refused by its 
         {with(arm, fore_inertia, R"(ixx="0.0005" iyy="0.006" izz="0.02")"),
          "the link 'fore' has moments of inertia that no body has"},
         {with(arm, fore_inertia, R"(ixx="-0.1" iyy="0.006" izz="0.006")"),
-         "the link 'fore' has a negative moment of inertia"},
+         "the link 'fore' has moments of inertia that no body has"},
         {with(arm, R"(xyz="0.12 0 0")", R"(xyz="0.12 0")"), "has 2 numbers; write three"},
         {with_more(R"(<joint name="back" type="fixed"><parent link="base"/><child link="fore"/>
            </joint>)"),
@@ -149,8 +149,8 @@ TEST_CASE("a description that is cut anywhere is refused") {
 
 TEST_CASE("elements that are nested without end are refused") {
     std::string deep = "<robot name=\"r\">";
-    for (int k = 0; k < 200'000; ++k) deep += "<link>";
-    CHECK_THAT(refused(deep), !StartsWith("it was read"));
+    for (int k = 0; k < 50'000; ++k) deep += "<link>";
+    CHECK_THAT(refused(deep), ContainsSubstring("nested more than 100 deep"));
 }
 
 TEST_CASE("what has no mass and moves nothing needs no inertia, and pictures are passed over") {

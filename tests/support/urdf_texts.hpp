@@ -8,28 +8,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
 namespace urdf_texts {
 
 /// A plane arm of two joints that swings in a vertical plane.
-inline std::string const arm = R"xml(<robot name="arm">
-  <link name="base"/>
-  <link name="upper"><inertial><origin xyz="0.15 0 0"/><mass value="1.2"/>
-    <inertia ixx="0.001" iyy="0.012" izz="0.012" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  <link name="fore"><inertial><origin xyz="0.12 0 0"/><mass value="0.8"/>
-    <inertia ixx="0.0005" iyy="0.006" izz="0.006" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  <joint name="shoulder" type="revolute"><origin rpy="1.5707963267948966 0 0"/><parent link="base"/>
-    <child link="upper"/><axis xyz="0 0 1"/>
-    <limit lower="-3" upper="3" effort="20" velocity="10"/>
-    <dynamics damping="0.1" friction="0.2"/></joint>
-  <joint name="elbow" type="revolute"><origin xyz="0.3 0 0"/><parent link="upper"/>
-    <child link="fore"/><axis xyz="0 0 1"/>
-    <limit lower="-3" upper="3" effort="8" velocity="10"/>
-    <dynamics damping="0.05" friction="0.1"/></joint>
-</robot>
-)xml";
+inline std::string const arm = [] {
+    std::ifstream in(SIVID_SOURCE_DIR "/examples/sivid/arm.urdf", std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>{in}, {}};
+}();
 
 /// With one part replaced.
 inline std::string with(std::string text, std::string const& part, std::string const& by) {

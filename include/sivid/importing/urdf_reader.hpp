@@ -5,9 +5,7 @@
 /// @file
 /// Needs liburdfdom (Debian: liburdfdom-dev; CMake: sivid::urdf).
 
-#include <sivid/importing/robot/body_description.hpp>
 #include <sivid/importing/robot/described_robot.hpp>
-#include <sivid/io/detail/problem_apart.hpp>
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/io/text/text_file.hpp>
@@ -44,7 +42,7 @@ namespace importing_detail {
 struct urdf_element {
     std::set<std::string> attributes, children, passed_over;
 
-    static urdf_element const* of(std::string const& parent, std::string const& name) {
+    static urdf_element const& of(std::string const& name) {
         static std::map<std::string, urdf_element> const known{
             {"robot",
              {{"name", "version", "xmlns"},
@@ -65,8 +63,7 @@ struct urdf_element {
             {"dynamics", {{"damping", "friction"}, {}, {}}},
             {"limit", {{"lower", "upper", "effort", "velocity"}, {}, {}}},
             {"mimic", {{"joint", "multiplier", "offset"}, {}, {}}}};
-        auto const at = known.find(name);
-        return at == known.end() || parent.empty() != (name == "robot") ? nullptr : &at->second;
+        return known.at(name);
     }
 };
 
@@ -146,19 +143,19 @@ private:
         if (root == nullptr || root->ValueStr() != "robot")
             fail(root == nullptr ? 0 : root->Row(), "this is no URDF: no element <robot>",
                  "give a file that begins by <robot name=...>");
-        require_known(*root, "");
+        require_known(*root);
         require_open(*root);
         TiXmlPrinter plain; // without what was passed over
         document.Accept(&plain);
         model_ = parsed(plain.CStr());
     }
-    void require_known(TiXmlElement& e, std::string const& parent) {
+    void require_known(TiXmlElement& e) {
         auto const name = e.ValueStr();
-        auto const* const may = urdf_element::of(parent, name);
+        auto const& may = urdf_element::of(name);
         auto const words = about(e);
         for (auto const* a = e.FirstAttribute(); a != nullptr; a = a->Next()) {
             std::string const key = a->Name();
-            if (!may->attributes.contains(key) && !key.starts_with("xmlns:"))
+            if (!may.attributes.contains(key) && !key.starts_with("xmlns:"))
                 fail(e.Row(), "an unknown attribute " + in_quotes(key) + " of " + words,
                      "leave it out: what it means for the motion is not known");
             require_numbers(*a, e.Row(), words);
@@ -167,19 +164,19 @@ private:
         for (TiXmlElement *c = e.FirstChildElement(), *next = nullptr; c != nullptr; c = next) {
             next = c->NextSiblingElement();
             auto const child = c->ValueStr();
-            if (may->passed_over.contains(child)) {
+            if (may.passed_over.contains(child)) {
                 dropped_.insert(child);
                 e.RemoveChild(c);
                 continue;
             }
-            if (!may->children.contains(child))
+            if (!may.children.contains(child))
                 fail(c->Row(), "an unknown element <" + child + "> in " + words,
                      child.starts_with("xacro:") ? "expand the file first: xacro robot.urdf.xacro"
                                                  : "leave it out, or describe what it does by "
                                                    "links and joints");
             if (name != "robot" && !seen.insert(child).second)
                 fail(c->Row(), "a second <" + child + "> in " + words, "leave one out");
-            require_known(*c, name);
+            require_known(*c);
         }
     }
     [[nodiscard]] static std::string about(TiXmlElement const& e) {
@@ -210,11 +207,6 @@ private:
         if (count != (key == "xyz" || key == "rpy" ? 3u : 1u))
             fail(line, key + " of " + words + " has " + std::to_string(count) + " numbers",
                  key == "xyz" || key == "rpy" ? "write three" : "write one");
-    }
-    [[nodiscard]] static double written(double x) {
-        char text[40];
-        (void)std::snprintf(text, sizeof text, "%.15g", x);
-        return std::abs(x) < 1e-15 ? 0 : std::strtod(text, nullptr);
     }
     /// Each link hangs on one joint at most.
     void require_open(TiXmlElement const& root) const {
@@ -324,7 +316,7 @@ private:
         auto const frame = at.then(own);
         j.joint.turn = frame.turn;
         j.origin = frame.origin;
-        for (auto& x : j.origin) x = written(x);
+        for (auto& x : j.origin) x = std::abs(x) < 1e-15 ? 0 : with_digits(x, 15);
         if (joint.limits && joint.type != urdf::Joint::CONTINUOUS)
             j.range = {joint.limits->lower, joint.limits->upper};
         if (joint.limits && joint.limits->velocity > 0) j.fastest = joint.limits->velocity;
@@ -375,6 +367,23 @@ private:
     std::size_t links_ = 0; ///< that are reached from the root
 };
 
+/// TinyXML descends by recursion: what is nested without end would end the program.
+inline void require_shallow(std::string const& file, std::string const& text) {
+    int depth = 0;
+    for (auto at = text.find('<'); at != text.npos; at = text.find('<', at + 1)) {
+        if (text.compare(at, 4, "<!--") == 0) {
+            at = std::min(text.find("-->", at), text.size());
+        } else if (text.compare(at, 2, "</") == 0) {
+            --depth;
+        } else if (auto const end = text.find('>', at); end == text.npos || text[end - 1] != '/') {
+            ++depth;
+        }
+        if (depth > 100)
+            throw input_error({.file = file}, "elements are nested more than 100 deep",
+                              "a description of a robot is not");
+    }
+}
+
 } // namespace importing_detail
 
 /// The robot that a URDF file describes: an open chain, or tree, of up to 7 joints that turn or
@@ -387,12 +396,8 @@ private:
     auto const name = file.string();
     if (text.size() > 10'000'000)
         throw input_error({.file = name}, "larger than 10 MB", "check the path");
-    auto const read = [&] { return importing_detail::urdf_reader(name, text, options).read(); };
-    // TinyXML descends by recursion: what is nested deep enough ends it by a signal.
-    if (std::count(text.begin(), text.end(), '<') > 10'000)
-        if (auto const problem = problem_apart([&] { (void)read(); }))
-            throw input_error({.file = name}, *problem, "correct it, or export the robot again");
-    return read();
+    importing_detail::require_shallow(name, text);
+    return importing_detail::urdf_reader(name, text, options).read();
 }
 
 } // namespace sivid

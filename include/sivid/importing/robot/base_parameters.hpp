@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <boost/multiprecision/cpp_int.hpp>
+#include <boost/operators.hpp>
 
 namespace sivid {
 
@@ -36,25 +37,16 @@ struct base_parameters {
 namespace importing_detail {
 
 /// A rational number. As a place of a joint that turns it is the tangent of half the angle.
-struct exact_scalar {
+struct exact_scalar : boost::field_operators<exact_scalar> {
     boost::multiprecision::cpp_rational value;
 
     exact_scalar(double exact = 0) : value(exact) {}
     explicit exact_scalar(boost::multiprecision::cpp_rational v) : value(std::move(v)) {}
-    bool operator==(exact_scalar const& b) const { return value == b.value; }
-    friend exact_scalar operator-(exact_scalar const& a) { return exact_scalar(-a.value); }
-    friend exact_scalar operator+(exact_scalar const& a, exact_scalar const& b) {
-        return exact_scalar(a.value + b.value);
-    }
-    friend exact_scalar operator-(exact_scalar const& a, exact_scalar const& b) {
-        return exact_scalar(a.value - b.value);
-    }
-    friend exact_scalar operator*(exact_scalar const& a, exact_scalar const& b) {
-        return exact_scalar(a.value * b.value);
-    }
-    friend exact_scalar operator/(exact_scalar const& a, exact_scalar const& b) {
-        return exact_scalar(a.value / b.value);
-    }
+    exact_scalar& operator+=(exact_scalar const& b) { return value += b.value, *this; }
+    exact_scalar& operator-=(exact_scalar const& b) { return value -= b.value, *this; }
+    exact_scalar& operator*=(exact_scalar const& b) { return value *= b.value, *this; }
+    exact_scalar& operator/=(exact_scalar const& b) { return value /= b.value, *this; }
+    friend exact_scalar operator-(exact_scalar const& a) { return exact_scalar() - a; }
     friend exact_scalar sin(exact_scalar const& t) { return (t + t) / (1.0 + t * t); }
     friend exact_scalar cos(exact_scalar const& t) { return (1.0 - t * t) / (1.0 + t * t); }
 };
@@ -71,7 +63,7 @@ public:
                                      [&](std::size_t c) { return r[c].value != 0; });
         if (at == order_.end()) return;
         auto const lead = r[*at];
-        for (auto& v : r) v = v / lead;
+        for (auto& v : r) v /= lead;
         for (auto& other : rows_) subtract(other, r, *at);
         rows_.push_back(std::move(r));
         pivots_.push_back(*at);
@@ -99,7 +91,7 @@ private:
         if (from[pivot].value == 0) return;
         auto const factor = from[pivot];
         for (std::size_t j = 0; j < from.size(); ++j)
-            if (what[j].value != 0) from[j] = from[j] - factor * what[j];
+            if (what[j].value != 0) from[j] -= factor * what[j];
     }
     std::vector<std::size_t> order_;
     std::vector<row> rows_;
@@ -184,7 +176,7 @@ private:
         row r(10);
         for (std::size_t k = 0; k < 3; ++k) {
             auto const i = (k + 1) % 3, j = (k + 2) % 3;
-            r[0] = r[0] + a[3 + k] * b[3 + k];
+            r[0] += a[3 + k] * b[3 + k];
             r[1 + k] = a[3 + i] * b[j] - a[3 + j] * b[i] + b[3 + i] * a[j] - b[3 + j] * a[i];
             r[4 + k] = a[k] * b[k];
             r[9 - k] = a[i] * b[j] + a[j] * b[i];
@@ -248,10 +240,10 @@ private:
             for (std::size_t e = 0; e < before.size(); ++e) {
                 row r(10);
                 for (std::size_t c = 0; c < 10; ++c)
-                    for (std::size_t j = 0; j < 10; ++j) r[c] = r[c] + before[e][j] * images[c][j];
+                    for (std::size_t j = 0; j < 10; ++j) r[c] += before[e][j] * images[c][j];
                 energies.add(r);
                 if (k == 0) at_zero.push_back(r);
-                for (std::size_t c = 0; c < 10; ++c) r[c] = r[c] - at_zero[e][c];
+                for (std::size_t c = 0; c < 10; ++c) r[c] -= at_zero[e][c];
                 conditions.add(r);
             }
         }

@@ -3,7 +3,6 @@
 #define SIVID_IMPORTING_ROBOT_ROBOT_TEXT_HPP
 
 #include <sivid/importing/robot/base_parameters.hpp>
-#include <sivid/importing/robot/body_description.hpp>
 #include <sivid/importing/robot/described_robot.hpp>
 #include <sivid/importing/robot/written_scalar.hpp>
 #include <sivid/io/input_error.hpp>
@@ -15,8 +14,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <set>
 #include <string>
@@ -81,12 +78,6 @@ public:
 private:
     using formula = written_scalar;
 
-    /// Six digits, to be read.
-    static std::string shortly(double x) {
-        char text[32];
-        (void)std::snprintf(text, sizeof text, "%.6g", x);
-        return text;
-    }
     static std::string number(double x) { return exact_decimal::shortest(x).text(); }
     static std::string quoted(std::string const& text) { return "\"" + text + "\""; }
     /// Text in a line of comment: nothing in it ends the line.
@@ -166,23 +157,20 @@ private:
             std::string left;
             for (std::size_t k = 0; k < count(); ++k) {
                 auto const rate = "*w_" + robot_.joints[k].of + "'";
-                if (!m[i][k].is_zero())
-                    left += (left.empty() ? "" : " + ") +
-                            (i == k ? "(" + (*m[i][k]).text() + " + armature_" +
-                                          robot_.joints[i].of + ")"
-                                    : factor(*m[i][k])) +
-                            rate;
+                if (m[i][k].is_zero()) continue;
+                auto const entry = (*m[i][k]).text();
+                left +=
+                    (left.empty() ? "" : " + ") +
+                    (i == k ? "(" + entry + " + armature_" + robot_.joints[i].of + ")" : entry) +
+                    rate;
             }
             auto const& of = robot_.joints[i].of;
             rates += left + " = tau_" + of + " - damping_" + of + "*w_" + of + " - friction_" + of +
-                     "*way_" + of + (h[i].is_zero() ? "" : " - " + factor(*h[i])) + "\n";
+                     "*way_" + of + (h[i].is_zero() ? "" : " - " + (*h[i]).text()) + "\n";
             parts_->add("way_" + of,
                         formula("w_" + of) / formula("sqrt(w_" + of + "^2 + rest_" + of + "^2)"));
         }
         body_ = written(rates);
-    }
-    static std::string factor(formula const& f) {
-        return f.is_name() ? f.text() : "(" + f.text() + ")";
     }
     /// The parts that the equations need, and the equations.
     std::string written(std::string const& rates) {
@@ -202,7 +190,8 @@ private:
                     "less friction.\n"
                     "#   q, w, tau: place, speed and motor of a joint. m, mx.., Ixx..: mass, first "
                     "moments and moments of inertia\n#   of the body that it moves, about the "
-                    "joint.\n";
+                    "joint. Friction is smooth below the speed rest; sign(w) for way is exact, and "
+                    "slower.\n";
         for (auto const& note : robot_.notes) text += "# " + plain(note) + "\n";
         for (auto const& j : robot_.joints)
             if (j.turned)
@@ -230,7 +219,8 @@ public:
             auto line = inertial_name(c.kept);
             for (auto const& t : c.terms) {
                 auto const size = std::abs(t.factor);
-                line += (t.factor < 0 ? " - " : " + ") + (size == 1 ? "" : shortly(size) + " ") +
+                line += (t.factor < 0 ? " - " : " + ") +
+                        (size == 1 ? "" : number(with_digits(size, 6)) + " ") +
                         inertial_name(t.constant);
             }
             lines.push_back(std::move(line));
@@ -286,25 +276,19 @@ private:
             add_constant(text, "damping_" + j.of, j.damping, within_ * j.damping, rate);
             add_constant(text, "friction_" + j.of, j.friction, within_ * j.friction, force(j));
             add_constant(text, "armature_" + j.of, 0, 0, j.joint.slides ? "kg" : "kg m^2");
-            add_constant(text, "rest_" + j.of, few(fastest(j) / 300), 0, angle(j) + "/s");
+            add_constant(text, "rest_" + j.of, with_digits(fastest(j) / 50, 2), 0, angle(j) + "/s");
         }
         return text;
     }
-    /// Two digits.
-    static double few(double x) {
-        char text[32];
-        (void)std::snprintf(text, sizeof text, "%.2g", x);
-        return std::strtod(text, nullptr);
-    }
-
     /// What motors, gears and sensors of a joint may do that the model leaves out.
     [[nodiscard]] std::string effects() const {
-        auto const m = mass_matrix(robot_, std::vector<double>(count(), 0.3));
+        auto const m = mass_matrix(robot_, 0.3);
         std::string text = "\n# What this leaves out, at each joint.\n";
         for (std::size_t i = 0; i < count(); ++i) {
             auto const& j = robot_.joints[i];
-            double const inertia = few(m[i][i].value_or(0)), fast = few(fastest(j));
-            double const strong = few(j.strongest.value_or(inertia * fast * fast));
+            double const inertia = with_digits(m[i][i].value_or(0), 2),
+                         fast = with_digits(fastest(j), 2);
+            double const strong = with_digits(j.strongest.value_or(inertia * fast * fast), 2);
             auto const in = force(j), speed = angle(j) + "/s";
             auto const add = [&](std::string const& name, std::string const& about,
                                  std::string const& prior, std::string const& what) {
@@ -313,14 +297,14 @@ private:
                         "constants.k = " + prior + "\ninputs = " + quoted(what) + "\n";
             };
             auto const upto = [](double most, std::string const& unit) {
-                return quoted("[0, " + number(few(most)) + "] " + unit);
+                return quoted("[0, " + number(with_digits(most, 2)) + "] " + unit);
             };
             auto const w = "w_" + j.of, tau = "tau_" + j.of, way = "way_" + j.of;
             add("viscous", "", upto(0.2 * strong / fast, in + " s/" + angle(j)),
                 "damping_" + j.of + " += k");
             add("coulomb", "", upto(0.2 * strong, in), "friction_" + j.of + " += k");
             add("stribeck", "friction that is stronger near rest", upto(0.2 * strong, in),
-                tau + " -= k*exp(-" + w + "^2/(50*rest_" + j.of + ")^2)*" + way);
+                tau + " -= k*exp(-" + w + "^2/(8*rest_" + j.of + ")^2)*" + way);
             if (loads_[i])
                 add("load_friction", "friction that grows with what the gear carries",
                     quoted("[0, 0.4]"), tau + " -= k*abs(h_" + j.of + ")*" + way);
