@@ -151,6 +151,14 @@ TEST_CASE("elements that are nested without end are refused") {
     std::string deep = "<robot name=\"r\">";
     for (int k = 0; k < 50'000; ++k) deep += "<link>";
     CHECK_THAT(refused(deep), ContainsSubstring("nested more than 100 deep"));
+    std::string chain = "<robot name=\"r\"><link name=\"0\"/>";
+    for (int k = 1; k < 50'000; ++k) {
+        auto const own = std::to_string(k), before = std::to_string(k - 1);
+        chain += "<link name=\"" + own + "\"/><joint name=\"" + own +
+                 "\" type=\"fixed\"><parent link=\"" + before + "\"/><child link=\"" + own +
+                 "\"/></joint>";
+    }
+    CHECK_THAT(refused(chain + "</robot>"), ContainsSubstring("more than 2000 links"));
 }
 
 TEST_CASE("what has no mass and moves nothing needs no inertia, and pictures are passed over") {

@@ -144,6 +144,9 @@ private:
             fail(root == nullptr ? 0 : root->Row(), "this is no URDF: no element <robot>",
                  "give a file that begins by <robot name=...>");
         require_known(*root);
+        std::size_t count = 0; // chains are followed by recursion
+        for (auto const* e = root->FirstChildElement(); e; e = e->NextSiblingElement()) ++count;
+        if (count > 2000) fail(0, "more than 2000 links and joints", "leave out what is fixed");
         require_open(*root);
         TiXmlPrinter plain; // without what was passed over
         document.Accept(&plain);
@@ -264,13 +267,12 @@ private:
     /// A link that moves with a body, or with the base, and all behind it.
     void add_link(urdf::Link const& link, std::size_t body, placement const& at) {
         ++links_;
-        if (link.inertial) {
+        if (link.inertial && body != body_joint::base) {
             auto const& i = *link.inertial;
             link_inertia const own{link.name, i.mass, {i.ixx, i.iyy, i.izz, i.ixy, i.ixz, i.iyz}};
             require_physical(own, file_);
-            if (body != body_joint::base)
-                add_inertia(result_.joints[body].inertial, own,
-                            at.then(placed(i.origin, "the link " + in_quotes(link.name))));
+            add_inertia(result_.joints[body].inertial, own,
+                        at.then(placed(i.origin, "the link " + in_quotes(link.name))));
         }
         for (auto const& joint : link.child_joints) {
             auto const place = at.then(placed(joint->parent_to_joint_origin_transform,

@@ -116,6 +116,8 @@ public:
             cos_.push_back(slides ? sparse<T>() : name_("c", i, sparse<T>(cos(q))));
             sin_.push_back(slides ? sparse<T>()
                                   : joints_[i].sense * name_("s", i, sparse<T>(sin(q))));
+            auto const way = slides ? axis(i, sparse<T>(q)) : vector{};
+            at_.push_back(named("r", i, sum(motion_.origin[i], seen_by_parent(i, way))));
         }
     }
 
@@ -151,8 +153,15 @@ public:
         auto whole = bodies_;
         std::vector<std::vector<sparse<T>>> result(n, std::vector<sparse<T>>(n));
         for (std::size_t i = n; i-- > 0;) {
-            if (i + 1 < n) whole[i] = named_body(i, whole[i]);
-            auto [f, m] = momentum(i, whole[i]);
+            whole[i].first = named("Cm", i, whole[i].first);
+            for (std::size_t k = 0; k < 6; ++k)
+                whole[i].inertia[k] = name_(moments[k], i, whole[i].inertia[k]);
+            // What an acceleration of 1 takes.
+            auto const& [mass, first, inertia] = whole[i];
+            auto const unit = axis(i, sparse<T>(T(1.0)));
+            bool const slides = joints_[i].slides;
+            auto f = slides ? scaled(mass, unit) : cross(unit, first);
+            auto m = slides ? cross(first, unit) : times(inertia, unit);
             result[i][i] = name_("M" + std::to_string(i + 1), i, along(i, f, m));
             for (auto j = i; joints_[j].parent != body_joint::base;) {
                 to_parent(j, f, m);
@@ -161,8 +170,12 @@ public:
                 m = named("N" + std::to_string(i + 1), j, m);
                 result[i][j] = result[j][i] = name_("M" + std::to_string(i + 1), j, along(j, f, m));
             }
-            if (joints_[i].parent != body_joint::base)
-                add_to(whole[joints_[i].parent], seen_by_parent(i, whole[i]));
+            if (joints_[i].parent == body_joint::base) continue;
+            auto& with = whole[joints_[i].parent];
+            auto const own = seen_by_parent(i, whole[i]);
+            with.mass = with.mass + own.mass;
+            with.first = sum(with.first, own.first);
+            for (std::size_t k = 0; k < 6; ++k) with.inertia[k] = with.inertia[k] + own.inertia[k];
         }
         return result;
     }
@@ -204,14 +217,10 @@ public:
     [[nodiscard]] std::pair<vector, vector>
     velocity_of_body(std::size_t i, std::pair<vector, vector> const& parent) const {
         auto const turning = seen_by_body(i, parent.first);
-        auto linear = seen_by_body(i, sum(parent.second, cross(parent.first, motion_.origin[i])));
-        if (joints_[i].slides)
-            linear = sum(linear, cross(turning, axis(i, sparse<T>(motion_.place[i]))));
-        return {turning, linear};
+        return {turning, seen_by_body(i, sum(parent.second, cross(parent.first, at_[i])))};
     }
     /// The same body, of the parent's frame.
     [[nodiscard]] body_inertia<T> seen_by_parent(std::size_t i, body_inertia<T> b) const {
-        if (joints_[i].slides) b = shifted(b, axis(i, sparse<T>(motion_.place[i])));
         auto const& m = b.inertia;
         // R I R^T: the columns turned, then the rows.
         std::array<vector, 3> rows{seen_by_parent(i, vector{m[0], m[3], m[4]}),
@@ -223,10 +232,12 @@ public:
         b.inertia = {turned[0][0], turned[1][1], turned[2][2],
                      turned[0][1], turned[0][2], turned[1][2]};
         b.first = seen_by_parent(i, b.first);
-        return shifted(b, motion_.origin[i]);
+        return shifted(b, at_[i]);
     }
 
 private:
+    static constexpr std::array<char const*, 6> moments{"Cxx", "Cyy", "Czz", "Cxy", "Cxz", "Cyz"};
+
     static vector sum(vector const& a, vector const& b) {
         return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
     }
@@ -247,14 +258,6 @@ private:
     vector named(std::string const& what, std::size_t i, vector const& a) const {
         return {name_(what + "x", i, a[0]), name_(what + "y", i, a[1]), name_(what + "z", i, a[2])};
     }
-    body_inertia<T> named_body(std::size_t i, body_inertia<T> const& b) const {
-        auto const& s = b.inertia;
-        return {name_("Cm", i, b.mass),
-                named("Cm", i, b.first),
-                {name_("Cxx", i, s[0]), name_("Cyy", i, s[1]), name_("Czz", i, s[2]),
-                 name_("Cxy", i, s[3]), name_("Cxz", i, s[4]), name_("Cyz", i, s[5])}};
-    }
-
     /// Angular velocities, and the accelerations that centrifugal forces and gravity amount to,
     /// joints not being accelerated.
     void velocities() {
@@ -267,51 +270,23 @@ private:
             bool const first = joints_[i].parent == body_joint::base, slides = joints_[i].slides;
             auto const p = joints_[i].parent;
             auto const &w = first ? still : turning_[p], &a = first ? still : turned_[p],
-                       &l = first ? falling : moved_[p], &r = motion_.origin[i];
+                       &l = first ? falling : moved_[p], &r = at_[i];
             auto const turning = seen_by_body(i, w);
             auto const speed = axis(i, sparse<T>(motion_.speed[i]));
-            auto const none = vector{};
-            turning_[i] = named("omega", i, sum(turning, slides ? none : speed));
-            turned_[i] =
-                named("alpha", i, sum(seen_by_body(i, a), slides ? none : cross(turning, speed)));
-            auto linear = seen_by_body(i, sum(l, sum(cross(a, r), cross(w, cross(w, r)))));
-            if (slides) {
-                auto const d = axis(i, sparse<T>(motion_.place[i]));
-                auto const &own = turning_[i], coriolis = cross(own, speed);
-                linear = sum(linear, sum(cross(turned_[i], d), cross(own, cross(own, d))));
-                linear = sum(linear, sum(coriolis, coriolis));
-            }
-            moved_[i] = named("a", i, linear);
+            auto const own = slides ? vector{} : speed;
+            turning_[i] = named("omega", i, sum(turning, own));
+            turned_[i] = named("alpha", i, sum(seen_by_body(i, a), cross(turning, own)));
+            auto const linear = seen_by_body(i, sum(l, sum(cross(a, r), cross(w, cross(w, r)))));
+            auto const coriolis = slides ? cross(turning, speed) : vector{};
+            moved_[i] = named("a", i, sum(linear, sum(coriolis, coriolis)));
         }
     }
 
     /// Force and moment about the body's origin become those about the parent's, as it sees them.
     void to_parent(std::size_t i, vector& force, vector& moment) const {
-        if (joints_[i].slides)
-            moment = sum(moment, cross(axis(i, sparse<T>(motion_.place[i])), force));
         force = seen_by_parent(i, force);
-        moment = sum(seen_by_parent(i, moment), cross(motion_.origin[i], force));
+        moment = sum(seen_by_parent(i, moment), cross(at_[i], force));
     }
-    /// Force and moment that a unit acceleration of the joint takes.
-    [[nodiscard]] std::pair<vector, vector> momentum(std::size_t i,
-                                                     body_inertia<T> const& b) const {
-        auto const k = joints_[i].axis;
-        auto const s = joints_[i].sense;
-        auto const u = (k + 1) % 3, v = (k + 2) % 3;
-        vector force, moment;
-        if (joints_[i].slides) {
-            force[k] = s * b.mass;
-            moment[u] = s * b.first[v];
-            moment[v] = -(s * b.first[u]);
-        } else {
-            force[u] = -(s * b.first[v]);
-            force[v] = s * b.first[u];
-            static constexpr std::size_t entry[3][3]{{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-            for (std::size_t j = 0; j < 3; ++j) moment[j] = s * b.inertia[entry[j][k]];
-        }
-        return {force, moment};
-    }
-
     /// About a point from which the origin of the frame is seen at p.
     [[nodiscard]] static body_inertia<T> shifted(body_inertia<T> b, vector const& p) {
         auto const &h = b.first, later = sum(h, scaled(b.mass, p)); // I += ... of h and h + m p
@@ -325,17 +300,12 @@ private:
         b.first = later;
         return b;
     }
-    static void add_to(body_inertia<T>& a, body_inertia<T> const& b) {
-        a.mass = a.mass + b.mass;
-        a.first = sum(a.first, b.first);
-        for (std::size_t k = 0; k < 6; ++k) a.inertia[k] = a.inertia[k] + b.inertia[k];
-    }
-
     std::vector<body_joint> joints_;
     std::vector<body_inertia<T>> bodies_;
     body_motion<T> motion_;
     Names name_;
     std::vector<sparse<T>> cos_, sin_;
+    std::vector<vector> at_; ///< where the frames' origins are, in the parents' frames
     std::vector<vector> turning_, turned_, moved_;
 };
 

@@ -53,6 +53,8 @@ private:
 
     static written_scalar product(written_scalar const& a, written_scalar const& b,
                                   char const* sign, bool brackets) {
+        if (a.text_ == "1" && *sign == '*') return a.minus_ ? -b : b;
+        if (b.text_ == "1") return b.minus_ ? -a : a;
         bool const minus = a.minus_ != (b.minus_ && !brackets);
         auto const left = a.kind_ == sum ? "(" + a.text() + ")" : a.text_;
         auto const right = brackets ? "(" + b.text() + ")" : b.text_;
