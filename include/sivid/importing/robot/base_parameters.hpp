@@ -135,17 +135,20 @@ private:
         for (std::size_t k = 0; k < n; ++k) result[k] = k;
         return result;
     }
-    /// Which constants are left out first where several may be: those of the last bodies, and of a
-    /// body the mass, and what lies along its axis.
+    /// Which constants are left out first where several may be: small ones, which widen what stands
+    /// for them least; of those alike, the last bodies'.
     [[nodiscard]] std::vector<std::size_t> null_order() const {
-        std::vector<std::size_t> order;
-        static constexpr std::size_t entry[3][3]{{4, 7, 8}, {7, 5, 9}, {8, 9, 6}};
-        for (std::size_t i = joints_.size(); i-- > 0;) {
-            auto const a = joints_[i].axis, u = (a + 1) % 3, v = (a + 2) % 3;
-            for (auto const k : {std::size_t{0}, 1 + a, entry[v][v], entry[u][u], entry[u][v],
-                                 entry[a][u], entry[a][v], 1 + u, 1 + v, entry[a][a]})
-                order.push_back(10 * i + k);
-        }
+        double length = 0; // by which masses and first moments are moments of inertia
+        for (auto const& j : robot_.joints)
+            length = std::max(length, std::hypot(j.origin[0], j.origin[1], j.origin[2]));
+        auto const size = [&](std::size_t c) {
+            auto const k = c % 10;
+            return robot_.size_of(c) * std::pow(length, k == 0 ? 2 : k < 4 ? 1 : 0);
+        };
+        auto order = all(10 * joints_.size());
+        std::reverse(order.begin(), order.end());
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
         return order;
     }
     static sparse<scalar> as_sparse(scalar x) {

@@ -56,6 +56,16 @@ struct described_robot {
     std::vector<described_joint> joints;        ///< each behind its parent
     std::vector<std::string> notes;             ///< what was decided, dropped or assumed
 
+    /// How large an inertial constant of its kind is there, by its number (10 body + number among
+    /// the ten): the mass, its centre's distance from the joint, the moments about the axes.
+    [[nodiscard]] double size_of(std::size_t constant) const {
+        auto const& c = joints[constant / 10].inertial;
+        auto const k = constant % 10;
+        if (k == 0) return c[0];
+        if (k < 4) return std::hypot(c[1], c[2], c[3]);
+        static constexpr std::size_t ends[6][2]{{4, 4}, {5, 5}, {6, 6}, {4, 5}, {4, 6}, {5, 6}};
+        return std::sqrt(c[ends[k - 4][0]] * c[ends[k - 4][1]]);
+    }
     [[nodiscard]] std::vector<body_joint> structure() const {
         std::vector<body_joint> result;
         for (auto const& j : joints) result.push_back(j.joint);

@@ -67,7 +67,6 @@ public:
     robot_writer(described_robot const& r, base_parameters const& base, double within)
         : robot_(r), base_(base), within_(within), parts_(std::make_shared<text_parts>()) {
         for (auto const& j : r.joints) parts_->of.push_back(j.of);
-        for (std::size_t i = 0; i < 10 * r.joints.size(); ++i) width_.push_back(spread(i));
     }
 
     [[nodiscard]] std::string operator()() {
@@ -96,23 +95,11 @@ private:
     [[nodiscard]] double nominal(std::size_t constant) const {
         return robot_.joints[constant / 10].inertial[constant % 10];
     }
-    /// How far a constant may be from its description, as a share of the mass, of the distance of
-    /// its centre from the joint, and of the moments about the axes.
-    [[nodiscard]] double spread(std::size_t constant) const {
-        auto const& c = robot_.joints[constant / 10].inertial;
-        auto const k = constant % 10;
-        if (k == 0) return within_ * c[0];
-        if (k < 4) return within_ * std::hypot(c[1], c[2], c[3]);
-        if (k < 7) return within_ * c[k];
-        static constexpr std::size_t ends[3][2]{{4, 5}, {4, 6}, {5, 6}};
-        auto const& e = ends[k - 7];
-        return within_ * std::sqrt(c[e[0]] * c[e[1]]);
-    }
-    /// That of a constant which stands for others, too: with the change of all of them.
+    /// How far a constant may be from its description, where it stands for others, too.
     [[nodiscard]] double half_width(base_parameters::combination const& c) const {
-        double w = width_[c.kept];
-        for (auto const& t : c.terms) w += std::abs(t.factor) * width_[t.constant];
-        return w;
+        double w = robot_.size_of(c.kept);
+        for (auto const& t : c.terms) w += std::abs(t.factor) * robot_.size_of(t.constant);
+        return within_ * w;
     }
     [[nodiscard]] base_parameters::combination const* kept(std::size_t constant) const {
         auto const at = std::find_if(base_.known.begin(), base_.known.end(),
@@ -336,7 +323,6 @@ private:
     base_parameters const& base_;
     double within_;
     std::shared_ptr<text_parts> parts_;
-    std::vector<double> width_;
     std::set<std::string> used_;
     std::vector<bool> loads_; ///< which joints carry more than their own friction
     std::string body_;
