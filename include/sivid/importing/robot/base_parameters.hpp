@@ -29,8 +29,8 @@ struct base_parameters {
     };
     std::vector<combination> known; ///< with what these alone give, any motion and torque agree
     std::vector<std::size_t> without_effect;
-    /// The geometry is in whole numbers and decimals, so that all of it is proved. Else turns are
-    /// rounded to doubles, and it holds for those.
+    /// The geometry is in right angles and decimals, so that all of it is proved. Else turns are
+    /// rounded to doubles, and what is below 1e-11 counts as 0.
     bool exact = true;
 };
 
@@ -51,13 +51,17 @@ struct exact_scalar : boost::field_operators<exact_scalar> {
     friend exact_scalar cos(exact_scalar const& t) { return (1.0 - t * t) / (1.0 + t * t); }
 };
 
-/// Rows in reduced echelon form over the rationals; columns are eliminated in a stated order.
+/// Rows in reduced echelon form over the rationals; columns are eliminated in a stated order. What
+/// is no larger than the noise counts as 0.
 class exact_rows {
 public:
     using row = std::vector<exact_scalar>;
-    explicit exact_rows(std::vector<std::size_t> order) : order_(std::move(order)) {}
+    exact_rows(std::vector<std::size_t> order, double noise)
+        : order_(std::move(order)), noise_(noise) {}
 
     void add(row r) {
+        for (auto& v : r)
+            if (abs(v.value) <= noise_.value) v = 0;
         for (std::size_t k = 0; k < rows_.size(); ++k) subtract(r, rows_[k], pivots_[k]);
         auto const at = std::find_if(order_.begin(), order_.end(),
                                      [&](std::size_t c) { return r[c].value != 0; });
@@ -87,13 +91,16 @@ public:
     }
 
 private:
-    static void subtract(row& from, row const& what, std::size_t pivot) {
+    void subtract(row& from, row const& what, std::size_t pivot) const {
         if (from[pivot].value == 0) return;
         auto const factor = from[pivot];
-        for (std::size_t j = 0; j < from.size(); ++j)
+        for (std::size_t j = 0; j < from.size(); ++j) {
             if (what[j].value != 0) from[j] -= factor * what[j];
+            if (abs(from[j].value) <= noise_.value) from[j] = 0;
+        }
     }
     std::vector<std::size_t> order_;
+    exact_scalar noise_;
     std::vector<row> rows_;
     std::vector<std::size_t> pivots_;
 };
@@ -108,7 +115,11 @@ private:
 class base_parameter_search {
 public:
     explicit base_parameter_search(described_robot const& r)
-        : robot_(r), joints_(r.structure()), null_(null_order()) {}
+        : robot_(r),
+          joints_(r.structure()),
+          exact_(has_right_angles(joints_)),
+          noise_(exact_ ? 0 : 1e-11),
+          null_(null_order(), noise_) {}
 
     [[nodiscard]] base_parameters operator()() {
         at_.reserve(places.size());
@@ -211,7 +222,8 @@ private:
         for (std::size_t k = 0; k < 3; ++k)
             before.velocities[0][3 + k] = decimal_value(robot_.gravity[k]);
         if (joints_[i].parent != body_joint::base) before = reached_[joints_[i].parent];
-        exact_rows conditions(all(10)), energies(all(10)), velocities(all(6));
+        exact_rows conditions(all(10), noise_), energies(all(10), noise_),
+            velocities(all(6), noise_);
         row own(6);
         own[(joints_[i].slides ? 3 : 0) + joints_[i].axis] = 1.0;
 
@@ -282,14 +294,23 @@ private:
                 found.without_effect.push_back(null_.pivots()[k]);
         }
         std::sort(found.without_effect.begin(), found.without_effect.end());
-        for (auto const& j : joints_)
-            for (auto const& r : j.turn)
-                for (double const x : r) found.exact = found.exact && (x == 0 || x * x == 1);
+        found.exact = exact_;
         return found;
+    }
+
+    static bool has_right_angles(std::vector<body_joint> const& joints) {
+        return std::all_of(joints.begin(), joints.end(), [](body_joint const& j) {
+            return std::all_of(j.turn.begin(), j.turn.end(), [](auto const& row) {
+                return std::all_of(row.begin(), row.end(),
+                                   [](double x) { return x == 0 || std::abs(x) == 1; });
+            });
+        });
     }
 
     described_robot const& robot_;
     std::vector<body_joint> joints_;
+    bool exact_;
+    double noise_; ///< of turns that are rounded
     std::vector<rigid_bodies<scalar>> at_;
     std::vector<reached> reached_;
     exact_rows null_;
@@ -297,8 +318,8 @@ private:
 
 } // namespace importing_detail
 
-/// What alone motions and torques tell of a robot's inertial constants: a theorem over all of them,
-/// in rational numbers.
+/// What alone motions and torques tell of a robot's inertial constants.
+/// @guarantee  where it is `exact`, a theorem about all motions
 /// @cost  milliseconds a joint
 /// @ref   Wensing, Niemeyer and Slotine, A geometric characterization of observability in inertial
 ///        parameter identification, Int. J. Robotics Research 43 (2024)

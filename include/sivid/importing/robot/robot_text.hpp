@@ -196,7 +196,7 @@ public:
         return text_of(
             std::to_string(base_.known.size()), " of ", std::to_string(10 * count()),
             " inertial constants or combinations are all that motions and torques tell (",
-            base_.exact ? "proved" : "proved for turns rounded to doubles",
+            base_.exact ? "proved" : "to rounding, for not all turns are right angles",
             "); the first of each stands for it:");
     }
     /// A combination in each.
