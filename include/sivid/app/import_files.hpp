@@ -44,7 +44,7 @@ inline int import_files(std::filesystem::path const& mapping, std::filesystem::p
 
 /// How the description of a robot becomes a model.
 struct robot_import {
-    std::string within = "20%";                          ///< how far inertial constants may be off
+    std::string within = "10%";                          ///< how far inertial constants may be off
     std::vector<std::string> fixed;                      ///< joints that are taken as fixed
     std::vector<std::string> gravity{"0", "0", "-9.81"}; ///< [m/s^2], in the root link
 };

@@ -177,6 +177,17 @@ TEST_CASE("a robot within the stated share is in the priors, with the others as 
     }
 }
 
+TEST_CASE("priors that hold inertias of no body are said") {
+    // (1 - w)^2 I = (1 + w)^2 (m c)^2/m: w = 0.104 for the fore arm, 0.092 for the upper one.
+    auto const about = [](double within) {
+        return text_of_robot(read(urdf_texts::arm), within).about;
+    };
+    CHECK_THAT(about(0.09), !ContainsSubstring("no body has"));
+    CHECK_THAT(about(0.1), ContainsSubstring("'upper' may have inertias that no body has") &&
+                               ContainsSubstring("none within 9%") && !ContainsSubstring("'fore'"));
+    CHECK_THAT(about(0.11), ContainsSubstring("'fore' may have inertias that no body has"));
+}
+
 TEST_CASE("each effect attaches to its joint by name") {
     auto const m = model_of(urdf_texts::arm);
     CHECK(m.effects.size() == 26);

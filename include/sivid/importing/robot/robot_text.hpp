@@ -337,6 +337,23 @@ struct robot_text {
     std::string about; ///< what was decided, and which inertial constants can be known, for people
 };
 
+namespace importing_detail {
+/// Says of which links the priors hold more than bodies: with less inertia about the joint than
+/// their mass and centre have, (1 - w)^2 I < (1 + w)^2 |h|^2/m.
+inline void add_limits(described_robot& r, double within) {
+    for (auto const& j : r.joints) {
+        auto const& c = j.inertial;
+        auto const a = j.joint.axis, u = 1 + (a + 1) % 3, v = 1 + (a + 2) % 3;
+        double const share = std::hypot(c[u], c[v]) / std::sqrt(c[0] * c[4 + a]);
+        double const most = (1 - share) / (1 + share);
+        if (!j.joint.slides && within > most)
+            r.notes.push_back("assumed: " + in_quotes(j.link) + " may have inertias that no body " +
+                              "has, where equations may divide by 0; none within " +
+                              std::to_string(static_cast<int>(100 * std::max(most, 0.0))) + "%");
+    }
+}
+} // namespace importing_detail
+
 /// Writes the equations of a described robot, with the operations of `rigid_bodies`, as a model in
 /// text. States are the joints' places and speeds, inputs their torques. The inertial constants
 /// that can be known have priors: as far from the description as its author may be wrong, with
@@ -344,7 +361,8 @@ struct robot_text {
 /// @param within  the share of masses, of the centres' distances and of moments of inertia
 /// @guarantee  a robot whose constants are within that share has, with its other constants as
 ///             described, values in the priors that move alike
-[[nodiscard]] inline robot_text text_of_robot(described_robot const& r, double within) {
+[[nodiscard]] inline robot_text text_of_robot(described_robot r, double within) {
+    importing_detail::add_limits(r, within);
     auto const base = base_parameters_of(r);
     importing_detail::robot_writer writer(r, base, within);
     robot_text result{writer(), {}};
