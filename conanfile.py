@@ -60,7 +60,7 @@ class Sivid(ConanFile):
         for name in "SIVID_BUILD_TESTS", "SIVID_BUILD_EXAMPLES", "SIVID_BUILD_BENCHMARKS":
             toolchain.cache_variables[name] = False
         toolchain.cache_variables["SIVID_LIBRARY"] = bool(self.options.library)
-        for name in "SIVID_WITH_MATIO", "SIVID_WITH_EXPAT", "SIVID_WITH_TOML":
+        for name in "SIVID_WITH_MATIO", "SIVID_WITH_URDF", "SIVID_WITH_EXPAT", "SIVID_WITH_TOML":
             toolchain.cache_variables[name] = False   # of the machine, not of Conan
         # What an option does not ask for is not looked for, either.
         for option, package in (("with_io", "nlohmann_json"), ("with_parallel", "TBB")):

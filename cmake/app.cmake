@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # sivid::app: the program of a robot around its model (include/sivid/app), compiled once, as sivid::compiled, to which it
 # belongs. It works on all threads where sivid::parallel is, checks in 40 digits where MPFI is, imports files of MATLAB
-# where sivid::matlab is, changes MJCF and URDF where sivid::xml is, and shares its work by MPI where sivid::cluster is
-# (asked for, or SIVID_PROGRAMS_WITH_MPI).
+# where sivid::matlab is, reads descriptions of robots where sivid::urdf is, changes MJCF and URDF where sivid::xml is, and
+# shares its work by MPI where sivid::cluster is (asked for, or SIVID_PROGRAMS_WITH_MPI).
 #
 # Included behind compiled.cmake by sivid's own tree and by find_package(sivid COMPONENTS app).
 
@@ -15,7 +15,7 @@ add_library(sivid::app ALIAS sivid_app)
 set_target_properties(sivid_app PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
 find_package(Threads REQUIRED) # a fleet has one for each of its processes
 target_link_libraries(sivid_app PUBLIC sivid::app_headers sivid_compiled PRIVATE Threads::Threads)
-foreach(component IN ITEMS parallel matlab xml)
+foreach(component IN ITEMS parallel matlab xml urdf)
     if(TARGET sivid::${component})
         target_link_libraries(sivid_app PRIVATE sivid::${component})
     endif()

@@ -46,6 +46,8 @@ function(sivid_install_pkgconfig component description requires)
         set(cflags " -DSIVID_HAS_MATIO=1")
     elseif(component STREQUAL "xml")
         set(cflags " -DSIVID_HAS_EXPAT=1")
+    elseif(component STREQUAL "urdf")
+        set(cflags " -DSIVID_HAS_URDF=1")
     elseif(component STREQUAL "cluster")
         set(cflags " -DSIVID_HAS_MPI=1")
     endif()
@@ -77,6 +79,9 @@ foreach(component IN LISTS sivid_components)
                                 "sivid-importing = ${PROJECT_VERSION}, matio, zlib")
     elseif(component STREQUAL "xml")
         sivid_install_pkgconfig(xml "MJCF and URDF files for sivid" "sivid-io = ${PROJECT_VERSION}, expat")
+    elseif(component STREQUAL "urdf")
+        sivid_install_pkgconfig(urdf "Descriptions of robots as models of sivid"
+                                "sivid-importing = ${PROJECT_VERSION}, urdfdom, tinyxml")
     elseif(component STREQUAL "text")
         sivid_install_pkgconfig(text "Models of sivid as text (needs the headers of toml++, too)"
                                 "sivid-io = ${PROJECT_VERSION}")
@@ -113,6 +118,7 @@ install(FILES "${PROJECT_BINARY_DIR}/sividConfig.cmake" "${PROJECT_BINARY_DIR}/s
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/find_mpi.cmake" "${CMAKE_CURRENT_LIST_DIR}/find_matio.cmake"
         "${CMAKE_CURRENT_LIST_DIR}/find_expat.cmake"
+        "${CMAKE_CURRENT_LIST_DIR}/find_urdf.cmake"
         "${CMAKE_CURRENT_LIST_DIR}/app.cmake"
         "${CMAKE_CURRENT_LIST_DIR}/find_toml.cmake"
         DESTINATION "${sivid_package_dir}" COMPONENT sivid_headers)

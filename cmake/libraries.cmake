@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The header-only targets: sivid::sivid (core), and beside it sivid::io, sivid::verifier, sivid::importing, sivid::report,
-# sivid::matlab, sivid::xml, sivid::text, sivid::parallel, sivid::cluster, and sivid::app_headers, which cmake/app.cmake makes
-# sivid::app of.
+# sivid::matlab, sivid::urdf, sivid::xml, sivid::text, sivid::parallel, sivid::cluster, and sivid::app_headers, which
+# cmake/app.cmake makes sivid::app of.
 
 if(POLICY CMP0167)
     cmake_policy(SET CMP0167 NEW)   # BoostConfig.cmake of Boost itself
@@ -71,6 +71,13 @@ if(nlohmann_json_FOUND)
         target_compile_definitions(sivid_xml INTERFACE SIVID_HAS_EXPAT=1)
     else()
         message(STATUS "sivid: expat not found or not wanted, sivid::xml left out (Debian: libexpat1-dev)")
+    endif()
+    include("${CMAKE_CURRENT_LIST_DIR}/find_urdf.cmake")
+    if(SIVID_WITH_URDF AND sivid_urdf_libraries)
+        sivid_add_library(urdf LINK sivid_importing ${sivid_urdf_libraries})   # its header is one of importing
+        target_compile_definitions(sivid_urdf INTERFACE SIVID_HAS_URDF=1)
+    else()
+        message(STATUS "sivid: liburdfdom not found or not wanted, sivid::urdf left out (Debian: liburdfdom-dev)")
     endif()
 else()
     message(STATUS "sivid: nlohmann_json not found: sivid::io and what stands on it (verifier, importing, report, text) left out")

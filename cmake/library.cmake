@@ -30,6 +30,9 @@ endif()
 if(TARGET sivid::app AND TARGET sivid::xml)
     list(APPEND sivid_library_needs expat)
 endif()
+if(TARGET sivid::app AND TARGET sivid::urdf)
+    list(APPEND sivid_library_needs urdfdom_model tinyxml console_bridge)
+endif()
 
 # What a program is told, beside the folders of headers: layouts of Eigen's that no flag of the machine changes.
 set(sivid_library_definitions SIVID_COMPILED SIVID_LIBRARY EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16)

@@ -64,7 +64,7 @@ else()
 endif()
 sivid_package(sivid_development NAME libsivid-dev ARCHIVE headers SECTION libdevel ${of_headers} DEPENDS "${needed}"
     RECOMMENDS "nlohmann-json3-dev (>= 3.9), libcli11-dev, libtomlplusplus-dev"
-    SUGGESTS "libtbb-dev, libmpfi-dev, libmatio-dev, libexpat1-dev, cmake, pkg-config, sivid"
+    SUGGESTS "libtbb-dev, libmpfi-dev, libmatio-dev, libexpat1-dev, liburdfdom-dev, cmake, pkg-config, sivid"
     DESCRIPTION "set-inversion validated identification (headers)
 A C++20 library that says which parameters of a dynamic model can
 explain recorded data, with proof: sets are certified inside or outside by

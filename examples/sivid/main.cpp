@@ -21,11 +21,15 @@ constexpr char const* usage =
 
 bool asks_for_help(std::string_view word) { return word == "--help" || word == "-h"; }
 
-/// Help needs no model: that of a robot without one.
-int show_help(int argc, char** argv) {
+/// Help needs no model: that of a robot without one. Nor does the description of a robot, of which
+/// a model is made.
+int run_without_model(int argc, char** argv, std::string const& file = "MODEL.toml") {
     sivid::text_model none;
     none.about = usage;
-    return sivid::app::run(sivid::app::robot_of_text("sivid", "MODEL.toml", none), argc, argv);
+    return sivid::app::run(sivid::app::robot_of_text("sivid", file, none), argc, argv);
+}
+bool is_description(std::string_view command, std::filesystem::path const& file) {
+    return command == "import" && (file.extension() == ".urdf" || file.extension() == ".xacro");
 }
 
 /// @throws bad_request  for what is none by its name, the word that usually follows
@@ -44,14 +48,15 @@ sivid::text_model model_in(std::string const& file) {
 
 int main(int argc, char** argv) {
     if (argc > 1 && (asks_for_help(argv[1]) || (argc > 2 && asks_for_help(argv[2]))))
-        return show_help(argc, argv);
+        return run_without_model(argc, argv);
     if (argc < 3) { // no model: nothing is run, and what is missing is shown
         std::string help = "--help";
         std::vector<char*> words(argv, argv + argc);
         words.insert(words.end(), {help.data(), nullptr});
-        show_help(argc + 1, words.data());
+        run_without_model(argc + 1, words.data());
         return sivid::app::bad_input;
     }
+    if (is_description(argv[1], argv[2])) return run_without_model(argc, argv, "");
     std::optional<sivid::app::robot> robot;
     int const code = sivid::app::guarded("sivid", [&] {
         robot = sivid::app::robot_of_text("sivid", argv[2], model_in(argv[2]));

@@ -75,6 +75,7 @@
 #include <sivid/model/prior_end.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/problem_text.hpp>
+#include <sivid/model/rigid_body.hpp>
 #include <sivid/model/sampling.hpp>
 #include <sivid/model/series/series.hpp>
 #include <sivid/model/series/taylor_arithmetic.hpp>

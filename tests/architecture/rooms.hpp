@@ -33,7 +33,7 @@ inline std::map<std::string_view, std::vector<std::string_view>> const rooms{
     {"diagnosis", {"sensor", "candidate", "gap", "hold_out", "claim"}},
     {"io", {"text", "dataset", "result", "simulator"}},
     {"verifier", {"proof", "claim"}},
-    {"importing", {"mapping", "table", "scenario"}},
+    {"importing", {"mapping", "table", "scenario", "robot"}},
     {"report", {"draw"}}};
 
 /// The room of sivid/floor/room/...; "" for a door.

@@ -107,6 +107,7 @@ inline bool package_allowed(std::string_view name, std::string_view floor, std::
     if (one_of({"mpi.h"})) return floor == "cluster";
     if (one_of({"matio.h"})) return file == "matlab_reader.hpp";
     if (one_of({"expat.h"})) return file == "xml_reader.hpp";
+    if (one_of({"urdf_parser/", "console_bridge/", "tinyxml.h"})) return file == "urdf_reader.hpp";
     if (one_of({"toml++/"})) return floor == "text";
     if (one_of({"zlib.h"})) return file == "whole_level5.hpp";
     if (one_of({"tbb/", "oneapi/"})) return floor == "parallel";

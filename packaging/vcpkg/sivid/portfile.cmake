@@ -15,6 +15,7 @@ endif()
 list(APPEND options -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON)   # sivid::cluster is no feature here
 list(APPEND options -DSIVID_WITH_MATIO=OFF)               # nor is sivid::matlab
 list(APPEND options -DSIVID_WITH_EXPAT=OFF)               # nor is sivid::xml
+list(APPEND options -DSIVID_WITH_URDF=OFF)                # nor is sivid::urdf
 list(APPEND options -DSIVID_WITH_TOML=OFF)                # nor is sivid::text
 foreach(feature_package IN ITEMS io:nlohmann_json parallel:TBB)
     string(REPLACE ":" ";" pair "${feature_package}")

@@ -298,11 +298,24 @@ private:
 
     void add_import() {
         auto& c = import_;
-        auto* const s = add(c, "import", "recorded files of any form into a data set",
-                            "mapping.json --out data",
-                            [&c] { return import_files(c.mapping, c.out, c.quiet); });
-        s->add_option("mapping", c.mapping, "what the files hold (sivid-mapping-1)")->required();
-        add_out(*s, c, "the data set, import.txt and import.json")->required();
+        auto* const s =
+            add(c, "import",
+                "recorded files of any form into a data set; or a robot's URDF into a model",
+                "mapping.json --out data", [this, &c] {
+                    return is_robot(c.mapping) ? import_robot(c.mapping, c.out, robot_, c.quiet)
+                                               : import_files(c.mapping, c.out, c.quiet);
+                });
+        s->add_option("mapping", c.mapping,
+                      "what the files hold (sivid-mapping-1); or robot.urdf, in place of a model")
+            ->required();
+        s->add_option("--within", robot_.within,
+                      "of a robot: how far masses, first moments and moments of inertia may be off")
+            ->capture_default_str();
+        s->add_option("--fix", robot_.fixed, "of a robot: joints that are fixed at 0, with commas")
+            ->delimiter(',');
+        s->add_option("--gravity", robot_.gravity, "of a robot: x y z in its root link [m/s^2]")
+            ->expected(3);
+        add_out(*s, c, "the data set or robot.toml, and import.txt")->required();
     }
 
     void add_simulate() {
@@ -891,6 +904,7 @@ private:
     CLI::App app_;
     std::vector<std::string> chosen_; ///< of the variants
     import_command import_;
+    robot_import robot_;
     simulate_command simulate_;
     generate_command generate_;
     identify_command identify_;
