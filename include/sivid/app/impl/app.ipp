@@ -252,6 +252,17 @@ private:
     static CLI::Option* add_out(CLI::App& s, Command& c, std::string const& what) {
         return s.add_option("--out", c.out, "folder for " + what)->check(folder_name());
     }
+    template <class Command>
+    static void add_disturbances(CLI::App& s, Command& c) {
+        s.add_option("--disturbance", c.disturbed,
+                     "unknown functions of time beside equations, with their largest value in the "
+                     "state's unit per time: v=0.8; the answer is for all of them, and predict, "
+                     "verify, control and check take them from the result")
+            ->delimiter(',');
+        s.add_option("--error", c.errors,
+                     "channels whose readings may be so much further off than their bounds: y=0.1")
+            ->delimiter(',');
+    }
     static void add_budget(CLI::App& s, double& budget,
                            std::string const& about = "seconds; it ends earlier when nothing is "
                                                       "left to do") {
@@ -407,6 +418,7 @@ private:
                      "effects to join to the model, separated by commas: their parameters are "
                      "identified, too")
             ->delimiter(',');
+        add_disturbances(s, c);
         add_enclosing(s, c.how);
         s.add_option("--accuracy", c.accuracy,
                      "leave boxes undecided when no side is wider than this share of what is left "
@@ -770,6 +782,7 @@ private:
         s->add_option("--rate", c.rate, "of a scenario: measurements a unit of time")
             ->check(number_between(1e-9, 1e5))
             ->capture_default_str();
+        add_disturbances(*s, c);
         add_out(*s, c, "ranking.html and ranking.json")->required();
         add_budget(*s, c.budget, "seconds; it ends earlier when all bounds are close");
         add_enclosing(*s, c.how);

@@ -159,7 +159,7 @@ inline void print_disturbance(identification_problem const& problem, disturbance
 
 SIVID_DECL int run(robot const& r, disturbance_command const& c) {
     auto const data = read_data(r, c.dataset);
-    auto const problem = posed(r, data, c.effects);
+    auto const problem = posed(r, data, c.effects, {});
     disturbance_set set;
     least_disturbance_options options;
     disturbance_bound found;
@@ -177,7 +177,8 @@ SIVID_DECL int run(robot const& r, disturbance_command const& c) {
         throw bad_request(e.what());
     }
     progress.finish();
-    for (auto const& words : assumptions_of(r, data, c.effects)) found.assumptions.push_back(words);
+    for (auto const& words : assumptions_of(r, data, c.effects, {}, problem.model))
+        found.assumptions.push_back(words);
     prepare_folder(c.out);
     file_set files(c.out);
     files.add("disturbance.json", detail::disturbance_json(problem, set, found, data.id));
