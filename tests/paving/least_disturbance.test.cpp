@@ -382,6 +382,26 @@ TEST_CASE("least disturbances that are known by hand are met from both sides",
     }
 }
 
+TEST_CASE("the trade-off of two sizes is met from both sides", "[least_disturbance]") {
+    // Up by W >= 0.8 - p - E and down by W >= 0.8 + p - 2 E, with |p| <= 0.1.
+    auto const least = [](double e) { return e < 0.2 ? 0.8 - 1.5 * e : 0.7 - e; };
+    auto const problem = drifting({0, 1, 0});
+    auto const curve = least_disturbance_curve(problem, {{{0, 1}}, {{0, 1}}}, 5);
+    REQUIRE(curve.size() == 5);
+    CHECK(curve.front().channels == 0);
+    CHECK(curve.back().equations == 0);
+    for (auto const& p : curve) {
+        CAPTURE(p.equations, p.channels, p.found.size.lower(), p.found.size.upper());
+        auto const& size = p.found.size;
+        CHECK(p.equations * size.lower() <= least(p.channels * size.lower()) + 1e-12);
+        CHECK(p.equations * size.upper() >= least(p.channels * size.upper()) - 1e-12);
+        CHECK(size.upper() <= 1.05 * size.lower());
+    }
+    CHECK_THROWS_WITH(least_disturbance_curve(problem, on_rate, 5), Contains("and channels"));
+    CHECK_THROWS_WITH(least_disturbance_curve(problem, {{{0, 1}}, {{0, 1}}}, 1),
+                      Contains("at least 2 points"));
+}
+
 TEST_CASE("the problem with its disturbance set keeps planted parameters", "[least_disturbance]") {
     auto const problem = drifting({0, 1, 0});
     auto const above = identify(with_disturbance(problem, on_rate, 0.85));

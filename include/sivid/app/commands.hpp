@@ -183,7 +183,8 @@ struct disturbance_command : command {
     std::filesystem::path dataset;
     std::vector<std::string> effects;    ///< of the catalogue, joined to the model
     std::vector<std::string> on, errors; ///< equations and channels with their scales: v=0.01
-    double budget = 20;                  ///< [s]
+    std::size_t curve = 0;               ///< points of the trade-off between equations and channels
+    double budget = 20;                  ///< [s], for all
 };
 /// `done` where both bounds are proved, the lower at least half of the upper one.
 [[nodiscard]] SIVID_DECL int run(robot const& r, disturbance_command const& c);

@@ -804,6 +804,10 @@ private:
                       "1 means there: psi=0.01");
         s->add_option("--with", c.effects, "effects of the catalogue, joined to the model")
             ->delimiter(',');
+        s->add_option("--curve", c.curve,
+                      "points of the trade-off between sizes of equations and of channels, in "
+                      "curve.csv and curve.svg")
+            ->check(CLI::Range(2, 100));
         add_out(*s, c, "disturbance.json and disturbance.csv")->required();
         add_budget(*s, c.budget, "seconds; it ends earlier when the bounds are close");
         add_exit_codes(*s, "0 bounded from both sides, within a factor of 2, 2 bad input, 3 not "

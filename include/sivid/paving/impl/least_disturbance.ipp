@@ -320,6 +320,57 @@ SIVID_DECL disturbance_bound least_disturbance(identification_problem const& pro
     return paving_detail::least_disturbance_work(problem, set, options)();
 }
 
+SIVID_DECL std::vector<disturbance_share>
+least_disturbance_curve(identification_problem const& problem, disturbance_set const& set,
+                        std::size_t points, least_disturbance_options options) {
+    if (set.equations.empty() || set.channels.empty() || points < 2)
+        throw std::invalid_argument("a curve needs equations and channels that are disturbed, and "
+                                    "at least 2 points");
+    options.seconds /= static_cast<double>(points);
+    auto const bounded = [&](double equations, double channels) {
+        auto own = set;
+        for (auto& q : own.equations) q.scale *= equations;
+        for (auto& q : own.channels) q.scale *= channels;
+        if (equations == 0) own.equations.clear();
+        if (channels == 0) own.channels.clear();
+        return disturbance_share{equations, channels, least_disturbance(problem, own, options)};
+    };
+    auto const needed = [](disturbance_bound const& found) {
+        double const most = found.size.upper(), least = found.size.lower();
+        return most > 0 && std::isfinite(most) ? most : least > 0 ? least : 1;
+    };
+    std::vector<disturbance_share> curve{bounded(1, 0)};
+    auto last = bounded(0, 1);
+    double const w = needed(curve.front().found), e = needed(last.found);
+    for (std::size_t k = 1; k + 1 < points; ++k) {
+        double const share = static_cast<double>(k) / static_cast<double>(points - 1);
+        curve.push_back(bounded((1 - share) * w, share * e));
+    }
+    curve.push_back(std::move(last));
+    return curve;
+}
+
+SIVID_DECL std::vector<disturbance_piece> strong_stretches(disturbance_set const& set,
+                                                           disturbance_bound const& found) {
+    std::vector<disturbance_piece> result;
+    for (auto const& p : found.pieces) {
+        auto const q = std::find_if(set.equations.begin(), set.equations.end(),
+                                    [&](auto const& e) { return e.index == p.equation; });
+        if (!(std::abs(p.value) >= 0.9 * found.size.upper() * q->scale) || p.value == 0) continue;
+        bool const goes_on = !result.empty() && result.back().to == p.from &&
+                             result.back().experiment == p.experiment &&
+                             result.back().equation == p.equation &&
+                             (result.back().value > 0) == (p.value > 0);
+        if (goes_on)
+            result.back().to = p.to;
+        else
+            result.push_back(p);
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](auto const& a, auto const& b) { return a.to - a.from > b.to - b.from; });
+    return result;
+}
+
 } // namespace sivid
 
 #endif
