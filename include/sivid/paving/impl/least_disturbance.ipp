@@ -10,7 +10,6 @@
 #include <sivid/paving/disturbance/detail/disturbance_program.hpp>
 #include <sivid/paving/disturbance/detail/disturbance_witness.hpp>
 #include <sivid/paving/disturbance/detail/disturbed_motion.hpp>
-#include <sivid/paving/disturbance/detail/narrowed_tube.hpp>
 #include <sivid/paving/disturbance/detail/weighted_motion.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
 #include <sivid/work_limit.hpp>
@@ -207,7 +206,7 @@ private:
         }
         return side;
     }
-    /// Bounds a part from below, by tubes that are narrowed where that has helped.
+    /// Bounds a part from below.
     [[nodiscard]] part bounded(part p) {
         ++boxes_;
         std::vector<motion_tube> tubes;
@@ -216,15 +215,6 @@ private:
             if (p.tubes) tubes[s].narrow((*p.tubes)[s]);
         }
         weigh(p, tubes);
-        double best = p.lower;
-        for (int round = 0; round < 3 && limit_() && p.lower < enough(); ++round) {
-            for (std::size_t s = 0; s < tubes.size(); ++s)
-                tubes[s] = narrowed_tube(motions_.within(s, tubes[s], p.set, level_), tubes[s],
-                                         *set_, p.set, level_, limit_);
-            weigh(p, tubes);
-            if (!(p.lower > 1.05 * best)) break;
-            best = p.lower;
-        }
         p.tubes = std::make_shared<std::vector<motion_tube> const>(std::move(tubes));
         return p;
     }
