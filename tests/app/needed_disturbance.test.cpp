@@ -107,7 +107,7 @@ TEST_CASE("an unexplained gap ends with the disturbance that it needs") {
     CHECK(n.reached.front().to > 1);
     CHECK_FALSE(n.strongest.empty());
     auto const words = report::disturbance_clause(n, "s");
-    CHECK_THAT(words, Catch::Contains("m/s^2 of unknown disturbance of v") &&
+    CHECK_THAT(words, Catch::Contains("m/s\u00b2 of unknown disturbance of v") &&
                           Catch::Contains("explains everything (proved)") &&
                           Catch::Contains("somewhere in run"));
 

@@ -411,11 +411,12 @@ inline std::string disturbance_clause(needed_disturbance const& n, std::string c
         return joined(all, "; ", [&](auto const& w) { return window_text(w, time_unit); });
     };
     bool const bounded = std::isfinite(n.size.upper());
-    std::string out =
-        bounded ? "within " + span_text(n.size) + " " + n.unit + " of unknown disturbance of " +
-                      n.equation + " the model as it is explains everything (proved)"
-                : "a disturbance of " + n.equation + " that explains everything needs " +
-                      span_text(n.size) + " " + n.unit + " (proved)";
+    std::string out = bounded
+                          ? "within " + span_text(n.size) + " " + unit_text(n.unit) +
+                                " of unknown disturbance of " + n.equation +
+                                " the model as it is explains everything (proved)"
+                          : "a disturbance of " + n.equation + " that explains everything needs " +
+                                span_text(n.size) + " " + unit_text(n.unit) + " (proved)";
     if (!n.reached.empty())
         out += "; it is reached somewhere in " + in(n.reached) + " (proved" +
                (n.reached.size() > 1 ? ", of one of these)" : ")");

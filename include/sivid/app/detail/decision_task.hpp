@@ -183,7 +183,8 @@ public:
                                        prediction_options const& options,
                                        std::vector<node_id> const& margins) const {
         auto found = predict(about.problem, options, margins);
-        if (about.starts_follow) found.excess = HUGE_VAL; // not all of these motions are possible
+        // Not all of these motions are possible, or no parameter narrows them.
+        if (about.starts_follow || !stored_.disturbances.empty()) found.excess = HUGE_VAL;
         if (!closed_) return found;
         for (auto const& s : closed_->slews) end_where_reached(found, s.channel, s.limit);
         return found;

@@ -3,6 +3,7 @@
 #define SIVID_APP_DETAIL_POSED_PROBLEM_HPP
 
 #include <sivid/app/detail/joined_effects.hpp>
+#include <sivid/app/detail/parameter_ranges.hpp>
 #include <sivid/app/names.hpp>
 #include <sivid/app/robot.hpp>
 #include <sivid/io/allowed_disturbances.hpp>
@@ -82,11 +83,8 @@ disturbances_from(std::vector<std::string> const& equations,
     auto const read = [](std::vector<std::string> const& list, std::string const& option) {
         allowed_disturbances::bounds all;
         for (auto const& text : list) {
-            auto const equals = text.find('=');
-            if (equals == std::string::npos || equals == 0)
-                throw bad_request(option + ": write name=value, not " + in_quotes(text));
-            auto const name = text.substr(0, equals);
-            all.emplace_back(name, decimal_of(text.substr(equals + 1), option + " " + name));
+            auto const [name, value] = detail::assignment(text, option);
+            all.emplace_back(name, decimal_of(value, option + " " + name));
         }
         return all;
     };

@@ -57,15 +57,6 @@ inline CLI::Validator folder_name() {
 
 namespace detail {
 
-/// "name=value" as a pair.
-inline std::pair<std::string, std::string> assignment(std::string const& text,
-                                                      std::string const& what) {
-    auto const equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-        throw bad_request(what + ": write name=value, not " + in_quotes(text));
-    return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
 inline std::size_t whole_number(std::string const& text, std::string const& what) {
     std::size_t count = 0;
     auto const* const end = text.data() + text.size();
@@ -806,9 +797,9 @@ private:
             ->delimiter(',');
         s->add_option("--curve", c.curve,
                       "points of the trade-off between sizes of equations and of channels, in "
-                      "curve.csv and curve.svg")
+                      "curve.csv")
             ->check(CLI::Range(2, 100));
-        add_out(*s, c, "disturbance.json and disturbance.csv")->required();
+        add_out(*s, c, "disturbance.html, disturbance.json and disturbance.csv")->required();
         add_budget(*s, c.budget, "seconds; it ends earlier when the bounds are close");
         add_exit_codes(*s, "0 bounded from both sides, within a factor of 2, 2 bad input, 3 not "
                            "within that.");

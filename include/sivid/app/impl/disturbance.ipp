@@ -17,7 +17,9 @@
 #include <sivid/number/text/nearest_text.hpp>
 #include <sivid/paving/least_disturbance.hpp>
 #include <sivid/report/draw/axes.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/report/page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -153,16 +155,14 @@ inline std::string next_command(robot const& r, disturbance_command const& c,
 
 inline std::string curve_csv(std::vector<disturbance_share> const& curve) {
     std::string text = "equations_lower,equations_upper,channels_lower,channels_upper\n";
-    auto const cell = [](double share, double size, bool upper) {
-        using traits = interval_traits<interval>;
-        auto const product = traits::mul(traits::point(share), traits::point(size));
-        if (!std::isfinite(size)) return std::string(share == 0 ? "0" : "");
-        return upper ? to_decimal_upper(product.upper()) : to_decimal_lower(product.lower());
+    auto const cells = [](double share, interval const& size) {
+        auto const both = interval_traits<interval>::mul(interval(share), size);
+        bool const bounded = std::isfinite(both.upper());
+        return to_decimal_lower(both.lower()) + "," +
+               (bounded ? to_decimal_upper(both.upper()) : std::string{});
     };
     for (auto const& p : curve)
-        for (auto const share : {p.equations, p.channels})
-            text += cell(share, p.found.size.lower(), false) + "," +
-                    cell(share, p.found.size.upper(), true) + (&share == &p.equations ? "," : "\n");
+        text += cells(p.equations, p.found.size) + "," + cells(p.channels, p.found.size) + "\n";
     return text;
 }
 
@@ -178,7 +178,7 @@ inline report::svg curve_picture(std::vector<disturbance_share> const& curve) {
         y.hi = std::max(y.hi, 1.1 * p.channels * size);
     }
     axes const frame({"size of equations", "1", x}, {"size of channels", "1", y},
-                     {.title = "Enough together (full), not enough (dashed); proved at the rings"});
+                     {.title = "Enough (full), not enough (dashed)"});
     svg out(360, 240, "trade-off of disturbances");
     frame.open(out);
     for (bool const upper : {false, true}) {
@@ -194,6 +194,29 @@ inline report::svg curve_picture(std::vector<disturbance_share> const& curve) {
     }
     frame.close(out);
     return out;
+}
+
+/// What the witness is disturbed by, over time: at most a dozen pictures.
+inline report::figure witness_figure(identification_problem const& problem,
+                                     disturbance_set const& set, disturbance_bound const& found) {
+    auto const& about = problem.model.about;
+    report::figure all{.title = "What the witness is disturbed by.",
+                       .caption = "With it a validated run explains the data; others may do so."};
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        for (auto const& q : set.equations) {
+            auto const& state = about.states[q.index];
+            report::channel_series line{.name = state.equation_name(),
+                                        .unit = rate_unit(state.unit, about.time_unit),
+                                        .time_unit = about.time_unit,
+                                        .zero = true};
+            for (auto const& p : found.pieces)
+                if (p.experiment == e && p.equation == q.index)
+                    line.after.insert(line.after.end(), {{p.from, p.value}, {p.to, p.value}});
+            if (line.after.empty() || all.panels.size() == 12) continue;
+            all.panels.push_back(draw_time_plot(line, {.title = problem.experiments[e].name}));
+        }
+    }
+    return all;
 }
 
 } // namespace detail
@@ -227,22 +250,32 @@ SIVID_DECL int run(robot const& r, disturbance_command const& c) {
     file_set files(c.out);
     files.add("disturbance.json", detail::disturbance_json(problem, set, found, data.id));
     files.add("disturbance.csv", detail::disturbance_csv(problem, found));
-    if (c.curve > 0) {
+    auto words = detail::disturbance_words(problem, set, found);
+    if (auto const next = detail::next_command(r, c, set, found); !next.empty())
+        words.push_back("which constants remain with 1.2 times that: " + next + " --out DIR");
+    report::page page({"Least disturbance", title_of(data, c.effects, {}, problem.model),
+                       "How large unknown functions of time beside the model must be"});
+    page.banner(found.witness ? report::outcome::proved : report::outcome::undecided, words.front(),
+                "Bounds hold for all measurable functions of time.");
+    page.plain_words({words.begin() + 1, words.end()});
+    page.section("Over time").add(detail::witness_figure(problem, set, found));
+    if (c.curve > 0)
+        page.section("Equations against channels")
+            .add(report::figure{.panels = {detail::curve_picture(curve)},
+                                .title = "Sizes that are enough together.",
+                                .caption = "Proved at the rings; lines only join them."});
+    page.assumptions(found.assumptions).footer(page_footer(c.command_line));
+    files.add("disturbance.html", page.str());
+    if (c.curve > 0)
         files.add("curve.csv", detail::curve_csv(curve));
-        files.add("curve.svg", detail::curve_picture(curve).str());
-    } else {
-        files.drop("curve.csv"), files.drop("curve.svg"); // of an earlier result
-    }
+    else
+        files.drop("curve.csv"); // of an earlier result
     files.commit();
     auto indent = "";
-    for (auto const& words : detail::disturbance_words(problem, set, found))
-        std::cout << std::exchange(indent, "  ") << words << "\n";
-    if (auto const next = detail::next_command(r, c, set, found); !next.empty())
-        std::cout << "  which constants remain with 1.2 times that: " << next << " --out DIR\n";
+    for (auto const& line : words) std::cout << std::exchange(indent, "  ") << line << "\n";
     std::cout << "  " << report::duration_text(found.seconds) << ", " << found.boxes
-              << " boxes; written: " << (c.out / "disturbance.json").string()
-              << (c.curve > 0 ? ", disturbance.csv, curve.csv and curve.svg\n"
-                              : " and disturbance.csv\n");
+              << " boxes; written: " << (c.out / "disturbance.html").string()
+              << " and disturbance.json, disturbance.csv" << (c.curve > 0 ? ", curve.csv\n" : "\n");
     return found.witness && found.size.lower() >= 0.5 * found.size.upper() ? done : undecided;
 }
 

@@ -42,13 +42,8 @@ namespace io_detail {
     for (std::size_t y = 0; y < model.observe.size(); ++y) {
         auto const seen = reachable(model.g, {model.observe[y]});
         bool shown = false;
-        for (auto const k : {sum.a, sum.b}) {
-            auto const op = nodes[k].op;
-            bool const leaf = op == operation::input || op == operation::state ||
-                              op == operation::constant || op == operation::time ||
-                              op == operation::literal;
-            shown = shown || (!leaf && k < seen.size() && seen[k]);
-        }
+        for (auto const k : {sum.a, sum.b})
+            shown = shown || (!is_leaf(nodes[k].op) && k < seen.size() && seen[k]);
         if (shown) result.push_back(model.about.channels[y].name);
     }
     return result;
@@ -66,15 +61,18 @@ SIVID_DECL std::string in_words(allowed_disturbances const& allowed, recorded_mo
     auto const& about = model.about;
     auto const set = io_detail::set_of(allowed, model);
     std::string text;
+    auto const add = [&](std::string const& name, exact_decimal const& most,
+                         std::string const& of) {
+        text += (text.empty() ? "" : ", ") + name + " up to " + most.text() + " " + of;
+    };
     for (std::size_t k = 0; k < set.equations.size(); ++k) {
         auto const& state = about.states[set.equations[k].index];
-        text += (text.empty() ? "" : ", ") + state.equation_name() + " up to " +
-                allowed.equations[k].second.text() + " " + rate_unit(state.unit, about.time_unit);
+        add(state.equation_name(), allowed.equations[k].second,
+            rate_unit(state.unit, about.time_unit));
     }
     for (std::size_t k = 0; k < set.channels.size(); ++k) {
         auto const& channel = about.channels[set.channels[k].index];
-        text += (text.empty() ? "readings of " : ", readings of ") + channel.name + " up to " +
-                allowed.channels[k].second.text() + " " + channel.unit;
+        add("readings of " + channel.name, allowed.channels[k].second, channel.unit);
     }
     return text;
 }

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -59,7 +58,6 @@ private:
         double lower = 0;
         std::vector<double> influence;
         std::vector<disturbed_stretch> needed;
-        std::shared_ptr<std::vector<motion_tube> const> tubes; ///< of the part that it is of
     };
 
     void seek_witness() {
@@ -125,7 +123,7 @@ private:
     }
     /// What a program says of the motions without disturbances, where there is no witness.
     [[nodiscard]] double usual_size() {
-        part all{problem_->prior, 0, {}, {}, nullptr};
+        part all{problem_->prior, 0, {}, {}};
         std::vector<motion_tube> tubes;
         for (std::size_t s = 0; s < motions_.experiments(); ++s)
             tubes.push_back(motions_.tube(s, all.set, 0));
@@ -152,7 +150,7 @@ private:
     /// Halves the part of the least bound, until that is near the level. Where half of some
     /// parts say nothing, smaller ones will not soon.
     void seek_lower(box const& prior) {
-        std::vector<part> open{bounded({prior, 0, {}, {}, nullptr})};
+        std::vector<part> open{bounded({prior, 0, {}, {}})};
         auto const less = [](part const& a, part const& b) { return a.lower > b.lower; };
         auto const begun = boxes_;
         while (boxes_ < options_->boxes && limit_() && open.front().lower < enough()) {
@@ -166,7 +164,7 @@ private:
             open.pop_back();
             auto halves = bisect(whole.set, side, mid(whole.set[side]));
             for (auto* half : {&halves.first, &halves.second}) {
-                open.push_back(bounded({*half, whole.lower, {}, whole.needed, whole.tubes}));
+                open.push_back(bounded({*half, whole.lower, {}, whole.needed}));
                 std::push_heap(open.begin(), open.end(), less);
             }
         }
@@ -210,12 +208,9 @@ private:
     [[nodiscard]] part bounded(part p) {
         ++boxes_;
         std::vector<motion_tube> tubes;
-        for (std::size_t s = 0; s < motions_.experiments(); ++s) {
+        for (std::size_t s = 0; s < motions_.experiments(); ++s)
             tubes.push_back(motions_.tube(s, p.set, level_));
-            if (p.tubes) tubes[s].narrow((*p.tubes)[s]);
-        }
         weigh(p, tubes);
-        p.tubes = std::make_shared<std::vector<motion_tube> const>(std::move(tubes));
         return p;
     }
     [[nodiscard]] double enough() const { return (1 - options_->relative_width) * level_; }

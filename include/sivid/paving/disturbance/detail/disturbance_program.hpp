@@ -316,9 +316,6 @@ private:
     /// The Riccati recursion of all experiments with the stiffness of the rows.
     [[nodiscard]] bool factor() {
         for_each_row([](row& r, double) { r.stiff = r.multiplier / r.slack; });
-        return factor_all();
-    }
-    [[nodiscard]] bool factor_all() {
         matrix total = matrix::Zero(shared_, shared_);
         for (index j = 0; j + 1 < shared_; ++j)
             total(j, j) += global_[static_cast<std::size_t>(2 * j)].stiff +
