@@ -63,8 +63,10 @@ def identify(
 ) -> Identification:
     """Which parameters of the prior explain the data, with proof.
 
-    ``effects``: of the model's catalogue, joined to it (``--with``). ``budget``: seconds. Further options:
-    ``accuracy``, ``boxes``, ``outliers``, ``threshold``, ``threads``, ``memory``, ``checkpoint``, ``resume``,
+    ``effects``: of the model's catalogue, joined to it (``--with``). ``disturbance``: ``{"v": 0.8}``, unknown functions
+    of time beside equations, at most so large, and ``error``: ``{"y": 0.1}``, beyond bounds of channels; what is proved
+    is so for all of them, and ``predict``, ``verify``, ``control`` and ``check`` take them from the result. ``budget``:
+    seconds. Further options: ``accuracy``, ``boxes``, ``outliers``, ``threshold``, ``threads``, ``memory``, ``checkpoint``, ``resume``,
     ``verdict_only``, ``by_bounds``, ``identifiability``, ``method``, ``set``, ``algorithm``, ``batches``.
 
     ``out``: a folder for the files of the result, as the program writes them; without it they last as long as the
@@ -222,7 +224,8 @@ def disturbance(
     """The least unknown disturbance with which the model explains the data, proved from both sides.
 
     ``on``: equations that are disturbed, with what a size of 1 means there, in the state's unit per time:
-    ``{"v": 0.01}``. ``error``: channels that may be further off than their bounds, likewise. Option: ``budget``."""
+    ``{"v": 0.01}``. ``error``: channels that may be further off than their bounds, likewise. Options: ``budget``,
+    ``curve`` (points of the trade-off between equations and channels)."""
     place = _placed(out)
     words = ["disturbance", _data(model, data, place)]
     words += _words({"on": on, "error": error, "with": ",".join(effects) or None, **options})

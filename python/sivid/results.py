@@ -299,9 +299,9 @@ class Ranking(Result):
 
 
 class Disturbance(Result):
-    """The least disturbance with which a model explains its data. ``report`` has no page of it."""
+    """The least disturbance with which a model explains its data."""
 
-    file = "disturbance.json"
+    page, file = "disturbance.html", "disturbance.json"
 
     @property
     def size(self) -> tuple:

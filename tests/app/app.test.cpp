@@ -315,7 +315,8 @@ TEST_CASE("the least disturbance of a data set is bounded from both sides") {
     auto const none = asked();
     CHECK(none.code == 0);
     CHECK_THAT(none.out, ContainsSubstring("without disturbances (proved)"));
-    CHECK(files_in(s.at("out")) == std::set<std::string>{"disturbance.csv", "disturbance.json"});
+    CHECK(files_in(s.at("out")) ==
+          std::set<std::string>{"disturbance.csv", "disturbance.html", "disturbance.json"});
     CHECK(json_of(fs::path{s.at("out")} / "disturbance.json")["size"][1] == 0);
 
     // One reading more than the cup can explain.
@@ -337,6 +338,37 @@ TEST_CASE("the least disturbance of a data set is bounded from both sides") {
     CHECK(json["equations"][0]["scale"] == 2);
     CHECK_THAT(text_of(fs::path{s.at("out")} / "disturbance.csv"),
                StartsWith("scenario,equation,from,to,value\ntea,T,0,"));
+
+    // The printed command poses the problem in which that much is allowed.
+    auto const at = some.out.find("cup identify ");
+    REQUIRE(at != std::string::npos);
+    auto const line = some.out.substr(at, some.out.find(" --out DIR", at) - at);
+    auto const option = line.find(" --disturbance T=");
+    REQUIRE(option != std::string::npos);
+    auto const next = run({"identify", s.data(), "--disturbance", line.substr(option + 15),
+                           "--quiet", "--out", s.at("next")});
+    CAPTURE(line, next.out, next.err);
+    CHECK((next.code == 0 || next.code == 3));
+
+    auto const traded = run({"disturbance", s.data(), "--on", "T=2", "--error", "T=0.1", "--curve",
+                             "3", "--quiet", "--out", s.at("out")});
+    CAPTURE(traded.out, traded.err);
+    CHECK(traded.code != 2);
+    CHECK_THAT(traded.out, ContainsSubstring(", curve.csv"));
+    CHECK_THAT(text_of(fs::path{s.at("out")} / "curve.csv"),
+               StartsWith("equations_lower,equations_upper,channels_lower,channels_upper\n"));
+    auto const curve = text_of(fs::path{s.at("out")} / "curve.csv");
+    CHECK(std::count(curve.begin(), curve.end(), '\n') == 4);
+    CHECK(std::count(curve.begin(), curve.end(), ',') == 12);
+    CHECK_THAT(text_of(fs::path{s.at("out")} / "disturbance.html"),
+               ContainsSubstring("What the witness is disturbed by") &&
+                   ContainsSubstring("Sizes that are enough together"));
+    CHECK(asked().code == 0);
+    CHECK_FALSE(fs::exists(fs::path{s.at("out")} / "curve.csv"));
+    CHECK_THAT(run({"disturbance", s.data(), "--on", "T=2", "--curve", "3", "--quiet", "--out",
+                    s.at("out")})
+                   .err,
+               ContainsSubstring("equations and channels"));
 }
 
 TEST_CASE("a table is imported, and a log that is none is refused whole") {

@@ -56,7 +56,7 @@ TEST_CASE("from a robot's log to gains that are proved for all that it leaves", 
     CHECK(asked("control", {"--require", "theta > 0"}).code == 2);
     auto const next = (folder.path() / "next").string();
     auto const experiment =
-        asked("design", {"--halve", "a", "--share", "1", "--vary", "u=-12:12", "--out", next});
+        asked("design", {"--halve", "a", "--share", "1", "--vary", "u=1:12", "--out", next});
     CHECK(experiment.code == 0);
     CHECK_THAT(experiment.out, ContainsSubstring("an experiment for a is found"));
     CHECK(fs::exists(next + "/design.html"));

@@ -2,7 +2,6 @@
 // The least disturbance: planted ones are never excluded, least ones that are known by hand are met
 // from both sides, what cannot be answered is refused.
 #include <sivid/model/disturbance.hpp>
-#include <sivid/paving/disturbance/detail/narrowed_tube.hpp>
 #include <sivid/paving/disturbance/detail/weighted_motion.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/least_disturbance.hpp>
@@ -284,25 +283,20 @@ TEST_CASE("no weights prove more than is true, and no tube loses the planted mot
         disturbed_motions const motions(p.problem, p.set);
         std::vector<disturbed_motion> all;
         for (std::size_t s = 0; s < motions.experiments(); ++s) {
-            auto tube = motions.tube(s, p.problem.prior, p.size);
-            for (int round = 0; round < 2; ++round) {
-                auto const& times = motions.times(s);
-                auto const& e = p.problem.experiments[s];
-                for (std::size_t k = 0; k < p.states[s].size(); ++k) {
-                    auto const t = std::get<sampled_signal>(e.inputs[0]).times()[k];
-                    auto const node = std::lower_bound(times.begin(), times.end(), t);
-                    REQUIRE(*node == t);
-                    auto const& x = tube.at[static_cast<std::size_t>(node - times.begin())];
-                    for (std::size_t i = 0; i < 2; ++i) {
-                        CHECK(x[i].lower() <= p.states[s][k][i] + 1e-8);
-                        CHECK(p.states[s][k][i] <= x[i].upper() + 1e-8);
-                    }
+            auto const tube = motions.tube(s, p.problem.prior, p.size);
+            auto const& times = motions.times(s);
+            auto const& e = p.problem.experiments[s];
+            for (std::size_t k = 0; k < p.states[s].size(); ++k) {
+                auto const t = std::get<sampled_signal>(e.inputs[0]).times()[k];
+                auto const node = std::lower_bound(times.begin(), times.end(), t);
+                REQUIRE(*node == t);
+                auto const& x = tube.at[static_cast<std::size_t>(node - times.begin())];
+                for (std::size_t i = 0; i < 2; ++i) {
+                    CHECK(x[i].lower() <= p.states[s][k][i] + 1e-8);
+                    CHECK(p.states[s][k][i] <= x[i].upper() + 1e-8);
                 }
-                auto const motion = motions.within(s, tube, p.problem.prior, p.size);
-                if (round == 1) all.push_back(motion);
-                tube = narrowed_tube(motion, tube, p.set, p.problem.prior, p.size,
-                                     [] { return true; });
             }
+            all.push_back(motions.within(s, tube, p.problem.prior, p.size));
         }
         for (int round = 0; round < 20; ++round) {
             weighted_motion sum(p.set, p.problem.prior);
@@ -380,6 +374,27 @@ TEST_CASE("least disturbances that are known by hand are met from both sides",
         auto const found = least_disturbance(drifting({0, 0, 0, 0, 0, 1, 0}), on_rate);
         CHECK(near(found.size, 0.8));
     }
+}
+
+TEST_CASE("the trade-off of two sizes is met from both sides", "[least_disturbance]") {
+    // Up by W >= 0.8 - p - E and down by W >= 0.8 + p - 2 E, with |p| <= 0.1.
+    auto const least = [](double e) { return e < 0.2 ? 0.8 - 1.5 * e : 0.7 - e; };
+    auto const problem = drifting({0, 1, 0});
+    auto const curve = least_disturbance_curve(problem, {{{0, 1}}, {{0, 1}}}, 5);
+    REQUIRE(curve.size() == 5);
+    CHECK(curve.front().channels == 0);
+    CHECK(curve.back().equations == 0);
+    for (auto const& p : curve) {
+        CAPTURE(p.equations, p.channels, p.found.size.lower(), p.found.size.upper());
+        auto const& size = p.found.size;
+        CHECK(p.equations * size.lower() <= least(p.channels * size.lower()) + 1e-12);
+        CHECK(p.equations * size.upper() >= least(p.channels * size.upper()) - 1e-12);
+        CHECK(size.upper() <= 1.05 * size.lower());
+    }
+    CHECK_THROWS_WITH(least_disturbance_curve(problem, on_rate, 5),
+                      Catch::Contains("and channels"));
+    CHECK_THROWS_WITH(least_disturbance_curve(problem, {{{0, 1}}, {{0, 1}}}, 1),
+                      Catch::Contains("at least 2 points"));
 }
 
 TEST_CASE("the problem with its disturbance set keeps planted parameters", "[least_disturbance]") {

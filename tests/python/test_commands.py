@@ -133,6 +133,11 @@ class AfterIdentification(Case):
         self.assertLessEqual(abs(found.pieces["value"]).max(), 0.1 * upper * (1 + 1e-12))
         self.assertIn("least disturbance", found.text)
         self.refused("did you mean 'x'", lambda: sivid.disturbance(fed_culture(), fed_data(), {"xx": 1}))
+        allowed = sivid.identify(fed_culture(), fed_data(decay=0.3), disturbance={"x": 0.3}, budget=10, accuracy=0.1)
+        self.assertNotEqual(allowed.verdict, "inconsistent")
+        self.assertEqual(allowed.to_json()["disturbances"]["equations"], {"x": 0.3})
+        self.assertIn("x up to 0.3", allowed.text)
+        self.assertNotEqual(sivid.check(allowed).code, 5)
 
     def test_pages_and_pictures(self):
         page = self.found.report(self.folder / "page.html").read_text()

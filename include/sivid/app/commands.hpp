@@ -45,6 +45,8 @@ struct import_command : command {
 struct search_command : command {
     std::filesystem::path dataset;
     std::vector<std::string> effects; ///< of the catalogue, joined to the model
+    /// What is allowed for: of equations v=0.8, of channels beyond their bounds y=0.1.
+    std::vector<std::string> disturbed{}, errors{};
     enclosing how{.set = "taylor-model"};
     /// Least width of a box that is split, as a share of what is left, and then the only thing
     /// beside budgets that ends the search. Without it 0.003, and so much being proved inside.
@@ -170,6 +172,7 @@ struct rank_command : command {
     std::vector<unknown_parameter> unknown; ///< of a scenario: what is ranked; empty: usual ones
     std::vector<std::string> measure;       ///< of a scenario: error bounds; empty: the robot's
     double rate = 20;                       ///< of a scenario: measurements a unit of time
+    std::vector<std::string> disturbed{}, errors{}; ///< as of `search_command`, for a data set
     enclosing how{.set = "taylor-model"};
     double budget = 10; ///< [s]
 };
@@ -180,7 +183,8 @@ struct disturbance_command : command {
     std::filesystem::path dataset;
     std::vector<std::string> effects;    ///< of the catalogue, joined to the model
     std::vector<std::string> on, errors; ///< equations and channels with their scales: v=0.01
-    double budget = 20;                  ///< [s]
+    std::size_t curve = 0;               ///< points of the trade-off between equations and channels
+    double budget = 20;                  ///< [s], for all
 };
 /// `done` where both bounds are proved, the lower at least half of the upper one.
 [[nodiscard]] SIVID_DECL int run(robot const& r, disturbance_command const& c);

@@ -251,11 +251,26 @@ enum class answer_kind {
                                            : "open";
 }
 
+/// How large an unknown function of time beside one equation must be for the model as it is to
+/// explain the data (`least_disturbance`).
+struct needed_disturbance {
+    std::string equation, unit; ///< unit: of its rate
+    interval size{0.0};         ///< contains the least one; proved, its upper end by a witness
+    /// Proved: disturbances up to the upper size that explain the data reach the lower one
+    /// somewhere in these.
+    std::vector<time_window> reached;
+    std::vector<time_window> strongest; ///< where the witness has nearly its size; others may not
+    std::string regime;                 ///< of what is missing in the equation, an estimate; or ""
+    double seconds = 0;                 ///< of work that it might take
+};
+
 /// What is left of a gap with the candidate that comes closest, when none explains the data.
 struct unexplained_remainder {
     std::vector<std::string> effects; ///< of that candidate
     inflation_range inflation = unknown_inflation();
     std::vector<suspected_place> where; ///< of the model with these effects; estimates
+    /// Of the model as it is, each equation disturbed alone.
+    std::vector<needed_disturbance> disturbances{};
 };
 
 /// A manoeuvre that would tell candidates apart.

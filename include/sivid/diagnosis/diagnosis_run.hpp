@@ -89,6 +89,18 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
                                  feasibility_test_options const& test = {},
                                  std::size_t boxes = 120);
 
+/// Where no effect explains the data: how large an unknown function of time beside an equation must
+/// be for the model as it is to do so. Each equation that constants or inputs act on is disturbed
+/// alone; those of the suspected places first. Nothing is done for other answers, delays, outliers.
+/// @param seconds  of work (`work_limit`), for all
+/// @guarantee  as of `least_disturbance`; nothing else of the diagnosis changes
+SIVID_DECL void bound_disturbances(diagnosis_run& run, double seconds = 10,
+                                   feasibility_test_options const& test = {});
+/// The same of one equation, as it is stored.
+[[nodiscard]] SIVID_DECL needed_disturbance
+disturbance_needed(identification_problem const& base, std::size_t equation, double seconds,
+                   feasibility_test_options const& test);
+
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

@@ -3,6 +3,7 @@
 #define SIVID_IMPL_IO_IPP
 
 #include <sivid/io/dataset/impl/dataset_digest.ipp>
+#include <sivid/io/impl/allowed_disturbances.ipp>
 #include <sivid/io/impl/checkpoint_reader.ipp>
 #include <sivid/io/impl/dataset.ipp>
 #include <sivid/io/impl/decision_json.ipp>

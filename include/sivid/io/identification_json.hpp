@@ -26,6 +26,7 @@ namespace sivid {
 struct identification_json_options {
     std::string dataset{};              ///< the id of the data set
     std::vector<std::string> effects{}; ///< joined to the data set's model, by name
+    allowed_disturbances disturbances{};
     std::vector<std::string> further_assumptions{};
     std::string source_folder{}; ///< the data set, seen from the result's folder
     std::string source_digest{}; ///< of `dataset_digest`; without it no source is written

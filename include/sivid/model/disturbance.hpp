@@ -39,6 +39,10 @@ struct disturbance_set {
 ///         an equation on which no channel depends
 SIVID_DECL void require_valid(disturbance_set const& set, recorded_model const& model);
 
+/// State equations on which constants or inputs act and which some channel shows: where forces,
+/// flows and reactions stand. x' = v is none.
+[[nodiscard]] SIVID_DECL std::vector<std::size_t> driven_equations(recorded_model const& model);
+
 /// The problem in which disturbances up to `size` are allowed: what identifies, predicts or
 /// contradicts does it for all of them. Each disturbed equation has a further input, 0 within an
 /// error bound of `size` times the scale, and bounds of disturbed channels are so much wider.

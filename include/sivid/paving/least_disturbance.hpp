@@ -82,6 +82,27 @@ struct disturbance_bound {
 least_disturbance(identification_problem const& problem, disturbance_set const& set,
                   least_disturbance_options const& options = {});
 
+/// A point of a trade-off: scales of equations times one number, those of channels times another.
+struct disturbance_share {
+    double equations = 0, channels = 0;
+    disturbance_bound found; ///< with these scales
+};
+
+/// Which sizes W of equations and E of channels are enough together: from the equations alone to
+/// the channels alone, in shares of what these need. Each point is a `least_disturbance`: W and E
+/// of `found.size.upper()` times the shares explain the data, less than `found.size.lower()` times
+/// them does not.
+/// @param points   2 or more
+/// @param options  for all points together
+/// @throws std::invalid_argument  as that does, and for a set without equations or channels
+[[nodiscard]] SIVID_DECL std::vector<disturbance_share>
+least_disturbance_curve(identification_problem const& problem, disturbance_set const& set,
+                        std::size_t points, least_disturbance_options options = {});
+
+/// Stretches in which the witness has nine tenths of the size or more, the longest first.
+[[nodiscard]] SIVID_DECL std::vector<disturbance_piece>
+strong_stretches(disturbance_set const& set, disturbance_bound const& found);
+
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

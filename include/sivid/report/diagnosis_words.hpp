@@ -404,6 +404,36 @@ inline std::string remainder_clause(diagnosis_view const& v) {
     return proved || fitted ? out + ")" : out + "unknown size is left";
 }
 
+/// "within 0.80 to 0.91 m/s^2 of unknown disturbance of v the model as it is explains everything
+/// (proved); it is reached somewhere in S1 from 3 to 4 s (proved), where speed is large (estimate)"
+inline std::string disturbance_clause(needed_disturbance const& n, std::string const& time_unit) {
+    auto const in = [&](std::vector<time_window> const& all) {
+        return joined(all, "; ", [&](auto const& w) { return window_text(w, time_unit); });
+    };
+    bool const bounded = std::isfinite(n.size.upper());
+    std::string out = bounded
+                          ? "within " + span_text(n.size) + " " + unit_text(n.unit) +
+                                " of unknown disturbance of " + n.equation +
+                                " the model as it is explains everything (proved)"
+                          : "a disturbance of " + n.equation + " that explains everything needs " +
+                                span_text(n.size) + " " + unit_text(n.unit) + " (proved)";
+    if (!n.reached.empty())
+        out += "; it is reached somewhere in " + in(n.reached) + " (proved" +
+               (n.reached.size() > 1 ? ", of one of these)" : ")");
+    if (!n.strongest.empty())
+        out += "; a witness needs it in " + in(n.strongest) + " (others may not)";
+    if (!n.regime.empty()) out += ", where " + n.regime + " (estimate)";
+    return out;
+}
+/// Such clauses of the remainder.
+inline std::vector<std::string> disturbance_clauses(diagnosis const& d) {
+    std::vector<std::string> all;
+    if (d.remainder)
+        for (auto const& n : d.remainder->disturbances)
+            all.push_back(disturbance_clause(n, d.time_unit));
+    return all;
+}
+
 /// What was tried in vain, and what comes closest by now; of an answer that is open.
 inline std::string open_clause(diagnosis_view const& v) {
     std::string const tried = tried_text(v.tried);
@@ -486,6 +516,7 @@ inline std::string banner_sentence(diagnosis_view const& v) {
         if (!v.confined.empty()) parts.push_back(confined_clause(v.confined.front()));
         parts.push_back(remainder_clause(v));
         if (!v.where.empty()) parts.push_back(place_clause(v.where.front(), v.time_unit));
+        if (auto const all = disturbance_clauses(v); !all.empty()) parts.push_back(all.front());
     } else if (v.gap != gap_verdict::none && !v.where.empty()) {
         parts.push_back(place_clause(v.where.front(), v.time_unit));
     }

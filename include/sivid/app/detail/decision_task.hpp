@@ -161,6 +161,8 @@ public:
                 request_.inputs.push_back(exact_signal(input, s.duration));
         }
         if (!effects.empty()) add_effects(effects);
+        own_inputs_ = request_.inputs.size();
+        if (!stored_.disturbances.empty()) add_disturbances();
         if (!c.effects.empty()) add_scenario_effects(chosen_effects(r.effects, data));
         close_the_loop();
         vary_inputs();
@@ -181,7 +183,8 @@ public:
                                        prediction_options const& options,
                                        std::vector<node_id> const& margins) const {
         auto found = predict(about.problem, options, margins);
-        if (about.starts_follow) found.excess = HUGE_VAL; // not all of these motions are possible
+        // Not all of these motions are possible, or no parameter narrows them.
+        if (about.starts_follow || !stored_.disturbances.empty()) found.excess = HUGE_VAL;
         if (!closed_) return found;
         for (auto const& s : closed_->slews) end_where_reached(found, s.channel, s.limit);
         return found;
@@ -219,6 +222,10 @@ public:
                 made->assumptions.push_back(in_words(name, range) +
                                             " in this scenario, whatever it was in the data");
         }
+        if (!stored_.disturbances.empty())
+            made->assumptions.push_back("in this scenario disturbances are as large as in the "
+                                        "data, at every time: " +
+                                        sivid::in_words(stored_.disturbances, problem_.model));
         for (auto const& e : command_.effects)
             made->assumptions.push_back("the effect " + e + " acts in this scenario");
         if (closed_) made->assumptions.push_back("the law " + command_.law + " acts " + when());
@@ -340,6 +347,23 @@ private:
         request_.initial = joined.initial;
         request_.inputs = joined.inputs;
     }
+    /// The disturbances that the result is for act in the scenario, too, as large all the time.
+    void add_disturbances() {
+        problem_ = disturbed(std::move(problem_), stored_.disturbances);
+        for (auto const& words : assumptions_of(stored_.disturbances, problem_.model))
+            if (std::find(stored_.assumptions.begin(), stored_.assumptions.end(), words) ==
+                stored_.assumptions.end())
+                throw input_error{{.file = (command_.result / "result.json").string()},
+                                  "the result contradicts itself: it does not assume '" + words +
+                                      "'",
+                                  "identify the data anew"};
+        auto const& all = problem_.experiments.front().inputs;
+        for (std::size_t k = own_inputs_; k < all.size(); ++k)
+            request_.inputs.push_back(sampled_signal({0.0}, {0.0}, interpolation::hold,
+                                                     std::get<sampled_signal>(all[k]).errors()));
+        about_ += (about_.empty() ? "For all disturbances of " : " For all disturbances of ") +
+                  sivid::in_words(stored_.disturbances, problem_.model) + ", here as in the data.";
+    }
     /// Effects that act in the scenario, whatever the data know of them.
     void add_scenario_effects(std::vector<effect> const& catalogue) {
         auto further = join_effects(problem_.model, catalogue, command_.effects);
@@ -356,6 +380,9 @@ private:
                                   "' of an effect begins where parameters say; give them one value "
                                   "each");
         further_ = std::move(further.model);
+        if (further_->has_memory() && !stored_.disturbances.empty())
+            throw bad_request("--with: delays, plays and rate limits are not covered beside the "
+                              "disturbances of this result; leave them out");
     }
     [[nodiscard]] recorded_model const& scenario_model() const {
         return further_ ? *further_ : problem_.model;
@@ -404,7 +431,9 @@ private:
     /// Inputs to be chosen are signals that take no term of the equations with them, so that what
     /// is proved of products holds for each of them.
     void vary_inputs() {
-        varied_ = varied_inputs(command_.vary, problem_.model.about.inputs);
+        auto items = problem_.model.about.inputs;
+        items.resize(std::min(items.size(), own_inputs_)); // nobody chooses a disturbance
+        varied_ = varied_inputs(command_.vary, items);
         for (auto const& u : varied_) {
             request_.inputs[u.index] =
                 sampled_signal({0, request_.end},
@@ -449,6 +478,7 @@ private:
     prediction_request request_;
     std::string dataset_, scenario_, about_;
     std::optional<scenario_description> described_; ///< unless it is one of the data
+    std::size_t own_inputs_ = 0;                    ///< those before disturbances
     std::vector<varied_input> varied_;
     std::optional<recorded_model> further_; ///< with effects of the scenario
     std::optional<closed_model> closed_;    ///< with a law

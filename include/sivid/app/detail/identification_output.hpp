@@ -87,6 +87,7 @@ struct search_task {
     search_command const& told;
     stopwatch clock{};
     dataset data;
+    allowed_disturbances disturbances;
     identification_problem problem;
     std::string title, digest;
     std::vector<std::string> further; ///< assumptions besides what is proved
@@ -98,10 +99,11 @@ struct search_task {
         : of{r},
           told{c},
           data{read_data(r, c.dataset)},
-          problem{posed(r, data, c.effects, c.outliers, remembering)},
-          title{title_of(data, c.effects)},
+          disturbances{disturbances_from(c.disturbed, c.errors)},
+          problem{posed(r, data, c.effects, disturbances, c.outliers, remembering)},
+          title{title_of(data, c.effects, disturbances, problem.model)},
           digest{dataset_digest(c.dataset)},
-          further{assumptions_of(r, data, c.effects)} {
+          further{assumptions_of(r, data, c.effects, disturbances, problem.model)} {
         if (!c.picture.empty())
             require_known(c.picture, names_in(r.model.about.channels), "channel");
         for (auto const& e : problem.experiments) {
@@ -265,6 +267,7 @@ private:
                   identification_json(problem_, found_,
                                       {.dataset = task_.data.id,
                                        .effects = task_.told.effects,
+                                       .disturbances = task_.disturbances,
                                        .further_assumptions = task_.further,
                                        .source_folder = seen_from(out(), task_.told.dataset),
                                        .source_digest = task_.digest,

@@ -8,9 +8,23 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sivid::app {
+
+namespace detail {
+
+/// "name=value" as a pair.
+inline std::pair<std::string, std::string> assignment(std::string const& text,
+                                                      std::string const& what) {
+    auto const equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw bad_request(what + ": write name=value, not " + in_quotes(text));
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+} // namespace detail
 
 /// "name=value" or "name=lower:upper" on the command line, in decimals, read outward.
 /// @throws bad_request

@@ -3,8 +3,10 @@
 #define SIVID_APP_DETAIL_POSED_PROBLEM_HPP
 
 #include <sivid/app/detail/joined_effects.hpp>
+#include <sivid/app/detail/parameter_ranges.hpp>
 #include <sivid/app/names.hpp>
 #include <sivid/app/robot.hpp>
+#include <sivid/io/allowed_disturbances.hpp>
 #include <sivid/io/dataset.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
@@ -60,13 +62,45 @@ inline std::vector<effect> effects_of(robot const& r, dataset const& data,
     return known_effects(chosen_effects(r.effects, data), names, r.model.about);
 }
 
-/// What a data set's result with effects rests on besides what is proved.
+/// What a data set's result with effects and disturbances rests on besides what is proved.
+/// @param posed  the model of the posed problem
 inline std::vector<std::string> assumptions_of(robot const& r, dataset const& data,
-                                               std::vector<std::string> const& effects) {
+                                               std::vector<std::string> const& effects,
+                                               allowed_disturbances const& disturbances,
+                                               recorded_model const& posed) {
     auto result = data.assumptions;
     for (auto& words : wrap_assumptions(effects_of(r, data, effects)))
         result.push_back(std::move(words));
+    for (auto& words : assumptions_of(disturbances, posed)) result.push_back(std::move(words));
     return result;
+}
+
+/// "--disturbance v=0.8", "--error y=0.1"
+/// @throws bad_request
+[[nodiscard]] inline allowed_disturbances
+disturbances_from(std::vector<std::string> const& equations,
+                  std::vector<std::string> const& channels) {
+    auto const read = [](std::vector<std::string> const& list, std::string const& option) {
+        allowed_disturbances::bounds all;
+        for (auto const& text : list) {
+            auto const [name, value] = detail::assignment(text, option);
+            all.emplace_back(name, decimal_of(value, option + " " + name));
+        }
+        return all;
+    };
+    return {read(equations, "--disturbance"), read(channels, "--error")};
+}
+
+/// The problem in which disturbances act, if there are any.
+/// @throws bad_request  for what cannot be disturbed
+[[nodiscard]] inline identification_problem disturbed(identification_problem problem,
+                                                      allowed_disturbances const& disturbances) {
+    if (disturbances.empty()) return problem;
+    try {
+        return with_disturbance(std::move(problem), disturbances);
+    } catch (std::invalid_argument const& e) {
+        throw bad_request(e.what());
+    }
 }
 
 /// The identification problem of a data set, effects of the catalogue joined to its model.
@@ -75,9 +109,9 @@ inline std::vector<std::string> assumptions_of(robot const& r, dataset const& da
 /// @throws bad_request  for an effect that is unknown, given twice, or whose parameters cannot be
 ///                      identified with proof
 [[nodiscard]] inline identification_problem
-posed(robot const& r, dataset const& data, std::vector<std::string> const& effects,
-      std::optional<outlier_rule> const& outliers = std::nullopt,
-      std::optional<remembering_problem>* remembering = nullptr) {
+posed_undisturbed(robot const& r, dataset const& data, std::vector<std::string> const& effects,
+                  std::optional<outlier_rule> const& outliers = std::nullopt,
+                  std::optional<remembering_problem>* remembering = nullptr) {
     auto problem = problem_from_dataset(data, r.model, outliers);
     if (effects.empty()) return problem;
     auto base = problem;
@@ -108,12 +142,27 @@ posed(robot const& r, dataset const& data, std::vector<std::string> const& effec
     return problem;
 }
 
+/// The same with disturbances: what any command finds holds for all of them.
+/// @throws bad_request  also for disturbances beside effects that are followed slice by slice
+[[nodiscard]] inline identification_problem
+posed(robot const& r, dataset const& data, std::vector<std::string> const& effects,
+      allowed_disturbances const& disturbances,
+      std::optional<outlier_rule> const& outliers = std::nullopt,
+      std::optional<remembering_problem>* remembering = nullptr) {
+    return disturbed(
+        posed_undisturbed(r, data, effects, outliers, disturbances.empty() ? remembering : nullptr),
+        disturbances);
+}
+
 /// What was identified, for people: the data set, and what was joined to the model.
 [[nodiscard]] inline std::string title_of(dataset const& data,
-                                          std::vector<std::string> const& effects) {
+                                          std::vector<std::string> const& effects,
+                                          allowed_disturbances const& disturbances,
+                                          recorded_model const& model) {
     std::string title = data.id;
     for (std::size_t k = 0; k < effects.size(); ++k)
         title += (k == 0 ? " with " : k + 1 == effects.size() ? " and " : ", ") + effects[k];
+    if (!disturbances.empty()) title += " for all disturbances of " + in_words(disturbances, model);
     return title;
 }
 

@@ -57,15 +57,6 @@ inline CLI::Validator folder_name() {
 
 namespace detail {
 
-/// "name=value" as a pair.
-inline std::pair<std::string, std::string> assignment(std::string const& text,
-                                                      std::string const& what) {
-    auto const equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-        throw bad_request(what + ": write name=value, not " + in_quotes(text));
-    return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
 inline std::size_t whole_number(std::string const& text, std::string const& what) {
     std::size_t count = 0;
     auto const* const end = text.data() + text.size();
@@ -253,6 +244,17 @@ private:
     static CLI::Option* add_out(CLI::App& s, Command& c, std::string const& what) {
         return s.add_option("--out", c.out, "folder for " + what)->check(folder_name());
     }
+    template <class Command>
+    static void add_disturbances(CLI::App& s, Command& c) {
+        s.add_option("--disturbance", c.disturbed,
+                     "unknown functions of time beside equations, with their largest value in the "
+                     "state's unit per time: v=0.8; the answer is for all of them, and predict, "
+                     "verify, control and check take them from the result")
+            ->delimiter(',');
+        s.add_option("--error", c.errors,
+                     "channels whose readings may be so much further off than their bounds: y=0.1")
+            ->delimiter(',');
+    }
     static void add_budget(CLI::App& s, double& budget,
                            std::string const& about = "seconds; it ends earlier when nothing is "
                                                       "left to do") {
@@ -421,6 +423,7 @@ private:
                      "effects to join to the model, separated by commas: their parameters are "
                      "identified, too")
             ->delimiter(',');
+        add_disturbances(s, c);
         add_enclosing(s, c.how);
         s.add_option("--accuracy", c.accuracy,
                      "leave boxes undecided when no side is wider than this share of what is left "
@@ -784,6 +787,7 @@ private:
         s->add_option("--rate", c.rate, "of a scenario: measurements a unit of time")
             ->check(number_between(1e-9, 1e5))
             ->capture_default_str();
+        add_disturbances(*s, c);
         add_out(*s, c, "ranking.html and ranking.json")->required();
         add_budget(*s, c.budget, "seconds; it ends earlier when all bounds are close");
         add_enclosing(*s, c.how);
@@ -805,7 +809,11 @@ private:
                       "1 means there: psi=0.01");
         s->add_option("--with", c.effects, "effects of the catalogue, joined to the model")
             ->delimiter(',');
-        add_out(*s, c, "disturbance.json and disturbance.csv")->required();
+        s->add_option("--curve", c.curve,
+                      "points of the trade-off between sizes of equations and of channels, in "
+                      "curve.csv")
+            ->check(CLI::Range(2, 100));
+        add_out(*s, c, "disturbance.html, disturbance.json and disturbance.csv")->required();
         add_budget(*s, c.budget, "seconds; it ends earlier when the bounds are close");
         add_exit_codes(*s, "0 bounded from both sides, within a factor of 2, 2 bad input, 3 not "
                            "within that.");

@@ -11,6 +11,7 @@
 #include <sivid/io/diagnosis_reader.hpp>
 #include <sivid/io/identification_reader.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/io/result/problem_digest.hpp>
 #include <sivid/io/text/durable_file.hpp>
 #include <sivid/model/describe.hpp>
 #include <sivid/number/text/joined.hpp>
@@ -140,7 +141,7 @@ inline int check_identification(robot const& r, check_command const& c) {
     auto const stored = read_identification(c.result);
     auto const folder = data_of_result(c.result, c.dataset, stored.source_folder);
     auto const data = read_data(r, folder);
-    auto problem = posed(r, data, stored.effects);
+    auto problem = posed(r, data, stored.effects, stored.disturbances);
     auto const source = source_of(folder, data, stored.dataset, stored.source_digest, "identified");
     std::cout << "checking " << (c.result / "result.json").string() << " against "
               << folder.lexically_normal().string() << "\n";
@@ -161,7 +162,8 @@ inline int check_identification(robot const& r, check_command const& c) {
     options.seed = c.seed;
     options.seconds = c.budget.value_or(c.all ? 3600 : 10);
     apply(c.how, options.certificate);
-    options.further_assumptions = assumptions_of(r, data, stored.effects);
+    options.further_assumptions =
+        assumptions_of(r, data, stored.effects, stored.disturbances, problem.model);
     options.certificate.keep_going = wanted;
     auto const findings = work(problem, stored, options, c.multiprecision);
     auto const by = c.how.method == "taylor" ? std::string{} : ", " + c.how.method;
@@ -171,7 +173,8 @@ inline int check_identification(robot const& r, check_command const& c) {
                               "), decided anew\n"
                         : ", by first-order sets (Lohner" + by +
                               "), not by the Taylor models that found them\n");
-    return concluded(title_of(data, stored.effects), findings, c.result);
+    return concluded(title_of(data, stored.effects, stored.disturbances, problem.model), findings,
+                     c.result);
 }
 
 /// A diagnosis: every claim by its own prover, whatever --sample says.
@@ -220,10 +223,14 @@ SIVID_DECL int run(robot const& r, certificate_command const& c) {
     auto const stored = read_identification(c.result);
     auto const folder = data_of_result(c.result, c.dataset, stored.source_folder);
     auto const data = read_data(r, folder);
-    auto problem = posed(r, data, stored.effects);
+    auto problem = posed(r, data, stored.effects, stored.disturbances);
     certificate_source source{folder, c.result / "result.json", "model", {}};
     require_same_problem(problem, stored, source.result);
     for (auto& e : problem.experiments) e.outliers = stored.budget.at(e.name);
+    if (!stored.problem.empty() && stored.problem != problem_digest(problem))
+        throw input_error{{.file = source.result.string()},
+                          "another problem was identified (SHA-256)",
+                          "give its model and data set, or identify anew"};
     bool const text = std::filesystem::is_regular_file(r.file);
     source.model_text = text ? read_text(r.file) : describe(problem.model);
     if (text) source.model_name = std::filesystem::path(r.file).filename().string();
@@ -233,8 +240,8 @@ SIVID_DECL int run(robot const& r, certificate_command const& c) {
     auto const made = make_certificate(problem, data, stored, source, limits);
     auto const file = c.out.empty() ? c.result / "certificate.txt" : c.out;
     write_durably(file, made.text);
-    std::cout << title_of(data, stored.effects) << ": certificate of "
-              << (made.whole ? "the result\n" : "a part of the result\n");
+    std::cout << title_of(data, stored.effects, stored.disturbances, problem.model)
+              << ": certificate of " << (made.whole ? "the result\n" : "a part of the result\n");
     for (auto const& words : made.claimed) std::cout << "  for the checker: " << words << "\n";
     for (auto const& words : made.unproved) std::cout << "  not certified: " << words << "\n";
     std::cout << "  " << made.excluded << " excluded boxes; written: " << file.string()

@@ -83,7 +83,7 @@ inline std::string confidence_page(std::string const& title, confidence_command 
 /// boxes. Done where the search came to its end, undecided where a budget ended it.
 SIVID_DECL int run(robot const& r, confidence_command const& c) {
     auto const data = read_data(r, c.dataset);
-    auto const problem = posed(r, data, c.effects);
+    auto const problem = posed(r, data, c.effects, {});
     prepare_folder(c.out);
     watch_interrupts();
     progress_line progress(c.quiet);
@@ -98,12 +98,12 @@ SIVID_DECL int run(robot const& r, confidence_command const& c) {
         options.nominal[name] = mid(value);
     auto region = confidence_region(problem, c.probability, options);
     progress.finish();
-    for (auto const& words : assumptions_of(r, data, c.effects))
+    for (auto const& words : assumptions_of(r, data, c.effects, {}, problem.model))
         region.assumptions.push_back(words);
     if (!region.found.paving.has_outer())
         region.remarks.push_back("nothing of the prior is in the region: the truth lies elsewhere, "
                                  "or the model is wrong, or this is one of the rare records");
-    auto const title = title_of(data, c.effects);
+    auto const title = title_of(data, c.effects, {}, problem.model);
     auto const& paving = region.found.paving;
     file_set files(c.out);
     files.add("confidence.html", detail::confidence_page(title, c, region));

@@ -224,6 +224,7 @@ inline void print_summary(diagnosis const& d, std::string const& id,
                                                    : "with " + joined(d.remainder->effects, " + "))
                   << ", inflation " << report::inflation_text(d.remainder->inflation) << "\n";
     }
+    for (auto const& words : report::disturbance_clauses(d)) std::cout << "  " << words << "\n";
     for (auto const& other : d.indistinguishable) {
         std::cout << "  not told apart from it: " << joined(other, " + ") << "\n";
     }
@@ -310,6 +311,11 @@ public:
             auto const boxes = static_cast<std::size_t>(4 * command_.budget);
             judge_by_holdout(*found, kept_, std::min(left(), 0.25 * command_.budget), options_.test,
                              boxes);
+            write(*found);
+        }
+        if (found->result.answer == answer_kind::unexplained && left() > 0 && wanted()) {
+            progress_.note("how large a disturbance would explain the data");
+            bound_disturbances(*found, std::min(left(), 0.25 * command_.budget), options_.test);
             write(*found);
         }
         progress_.finish();

@@ -13,9 +13,13 @@
 #include <sivid/io/text/json_writer.hpp>
 #include <sivid/model/unit.hpp>
 #include <sivid/number/decimal_output.hpp>
+#include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 #include <sivid/paving/least_disturbance.hpp>
+#include <sivid/report/draw/axes.hpp>
+#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/number_text.hpp>
+#include <sivid/report/page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -95,74 +99,135 @@ inline std::string disturbance_csv(identification_problem const& problem,
     return text;
 }
 
-/// Stretches in which the witness has nine tenths of the size or more, the longest first.
-inline std::vector<disturbance_piece> strong_stretches(disturbance_set const& set,
-                                                       disturbance_bound const& found) {
-    std::vector<disturbance_piece> result;
-    for (auto const& p : found.pieces) {
-        auto const q = std::find_if(set.equations.begin(), set.equations.end(),
-                                    [&](auto const& e) { return e.index == p.equation; });
-        if (!(std::abs(p.value) >= 0.9 * found.size.upper() * q->scale) || p.value == 0) continue;
-        bool const goes_on = !result.empty() && result.back().to == p.from &&
-                             result.back().experiment == p.experiment &&
-                             result.back().equation == p.equation &&
-                             (result.back().value > 0) == (p.value > 0);
-        if (goes_on)
-            result.back().to = p.to;
-        else
-            result.push_back(p);
-    }
-    std::stable_sort(result.begin(), result.end(),
-                     [](auto const& a, auto const& b) { return a.to - a.from > b.to - b.from; });
-    return result;
-}
-
-inline void print_disturbance(identification_problem const& problem, disturbance_set const& set,
-                              disturbance_bound const& found) {
+/// What was found, a sentence each, the bounds first.
+inline std::vector<std::string> disturbance_words(identification_problem const& problem,
+                                                  disturbance_set const& set,
+                                                  disturbance_bound const& found) {
     auto const& about = problem.model.about;
     auto const stretch = [&](disturbed_stretch const& s) {
         return problem.experiments[s.experiment].name + " from " + nearest_text(s.from, 4) +
                " to " + nearest_text(s.to, 4) + " " + about.time_unit;
     };
-    if (found.size.upper() == 0) {
-        std::cout << "the model explains the data without disturbances (proved)\n";
-        return;
-    }
-    std::cout << "least disturbance: " << to_decimal_lower(found.size.lower(), 4) << " to "
-              << (found.witness ? to_decimal_upper(found.size.upper(), 4) : "unknown")
-              << " (proved), times";
+    if (found.size.upper() == 0)
+        return {"the model explains the data without disturbances (proved)"};
+    std::vector<std::string> words{
+        "least disturbance: " + to_decimal_lower(found.size.lower(), 4) + " to " +
+        (found.witness ? to_decimal_upper(found.size.upper(), 4) : "unknown") + " (proved), times"};
     for (auto const& q : set.equations)
-        std::cout << " " << about.states[q.index].equation_name() << "=" << nearest_text(q.scale)
-                  << " " << rate_unit(about.states[q.index].unit, about.time_unit);
+        words[0] += " " + about.states[q.index].equation_name() + "=" + nearest_text(q.scale) +
+                    " " + rate_unit(about.states[q.index].unit, about.time_unit);
     for (auto const& q : set.channels)
-        std::cout << " " << about.channels[q.index].name << "=" << nearest_text(q.scale) << " "
-                  << about.channels[q.index].unit;
-    std::cout << "\n";
+        words[0] += " " + about.channels[q.index].name + "=" + nearest_text(q.scale) + " " +
+                    about.channels[q.index].unit;
     for (auto const& s : found.needed)
-        std::cout << "  it is reached somewhere in " << stretch(s) << " (proved"
-                  << (found.needed.size() > 1 ? ", of one of these" : "") << ")\n";
+        words.push_back("it is reached somewhere in " + stretch(s) + " (proved" +
+                        (found.needed.size() > 1 ? ", of one of these)" : ")"));
     auto strong = strong_stretches(set, found);
     strong.resize(std::min<std::size_t>(strong.size(), 5));
     for (auto const& p : strong)
-        std::cout << "  the witness needs it in " << about.states[p.equation].equation_name()
-                  << ": " << stretch(p) << ", " << nearest_text(p.value, 3)
-                  << " (others may not)\n";
-    if (found.witness)
-        for (std::size_t j = 0; j < found.hull.size(); ++j)
-            std::cout << "  with disturbances up to it " << problem.choice.unknown[j] << " in "
-                      << report::outward_text_within(found.hull[j], problem.prior[j])
-                      << (subset(problem.prior[j], found.hull[j]) ? " (nothing excluded)\n"
-                                                                  : " (proved)\n");
+        words.push_back("the witness needs it in " + about.states[p.equation].equation_name() +
+                        ": " + stretch(p) + ", " + nearest_text(p.value, 3) + " (others may not)");
+    for (std::size_t j = 0; found.witness && j < found.hull.size(); ++j)
+        words.push_back(
+            "with disturbances up to it " + problem.choice.unknown[j] + " in " +
+            report::outward_text_within(found.hull[j], problem.prior[j]) +
+            (subset(problem.prior[j], found.hull[j]) ? " (nothing excluded)" : " (proved)"));
+    return words;
+}
+
+/// The command that identifies with disturbances a fifth larger than the witness's; "" without one.
+inline std::string next_command(robot const& r, disturbance_command const& c,
+                                disturbance_set const& set, disturbance_bound const& found) {
+    if (!found.witness || found.size.upper() == 0) return {};
+    auto const& about = r.model.about;
+    std::string text = r.name + " identify " + (r.file.empty() ? "" : r.file + " ") +
+                       c.dataset.string() + (c.effects.empty() ? "" : " --with ") +
+                       joined(c.effects, ",");
+    auto const value = [&](double scale) {
+        return "=" + to_decimal_upper(1.2 * found.size.upper() * scale, 4);
+    };
+    for (auto const& q : set.equations)
+        text += " --disturbance " + about.states[q.index].name + value(q.scale);
+    for (auto const& q : set.channels)
+        text += " --error " + about.channels[q.index].name + value(q.scale);
+    return text;
+}
+
+inline std::string curve_csv(std::vector<disturbance_share> const& curve) {
+    std::string text = "equations_lower,equations_upper,channels_lower,channels_upper\n";
+    auto const cells = [](double share, interval const& size) {
+        auto const both = interval_traits<interval>::mul(interval(share), size);
+        bool const bounded = std::isfinite(both.upper());
+        return to_decimal_lower(both.lower()) + "," +
+               (bounded ? to_decimal_upper(both.upper()) : std::string{});
+    };
+    for (auto const& p : curve)
+        text += cells(p.equations, p.found.size) + "," + cells(p.channels, p.found.size) + "\n";
+    return text;
+}
+
+/// Both ends of each point, as lines: below the dashed one nothing explains, on the full one
+/// something does; between points nothing is said.
+inline report::svg curve_picture(std::vector<disturbance_share> const& curve) {
+    using namespace report;
+    report::range x{0, 0}, y{0, 0};
+    for (auto const& p : curve) {
+        double const size =
+            std::isfinite(p.found.size.upper()) ? p.found.size.upper() : p.found.size.lower();
+        x.hi = std::max(x.hi, 1.1 * p.equations * size);
+        y.hi = std::max(y.hi, 1.1 * p.channels * size);
+    }
+    axes const frame({"size of equations", "1", x}, {"size of channels", "1", y},
+                     {.title = "Enough (full), not enough (dashed)"});
+    svg out(360, 240, "trade-off of disturbances");
+    frame.open(out);
+    for (bool const upper : {false, true}) {
+        path_data line;
+        for (auto const& p : curve) {
+            double const size = upper ? p.found.size.upper() : p.found.size.lower();
+            if (!std::isfinite(size)) continue;
+            double const at = frame.px(p.equations * size), on = frame.py(p.channels * size);
+            line.empty() ? line.move(at, on) : line.line(at, on);
+            draw_estimate(out, at, on);
+        }
+        out.path(line, upper ? line_after_paint : line_before_paint);
+    }
+    frame.close(out);
+    return out;
+}
+
+/// What the witness is disturbed by, over time: at most a dozen pictures.
+inline report::figure witness_figure(identification_problem const& problem,
+                                     disturbance_set const& set, disturbance_bound const& found) {
+    auto const& about = problem.model.about;
+    report::figure all{.title = "What the witness is disturbed by.",
+                       .caption = "With it a validated run explains the data; others may do so."};
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        for (auto const& q : set.equations) {
+            auto const& state = about.states[q.index];
+            report::channel_series line{.name = state.equation_name(),
+                                        .unit = rate_unit(state.unit, about.time_unit),
+                                        .time_unit = about.time_unit,
+                                        .zero = true};
+            for (auto const& p : found.pieces)
+                if (p.experiment == e && p.equation == q.index)
+                    line.after.insert(line.after.end(), {{p.from, p.value}, {p.to, p.value}});
+            if (line.after.empty() || all.panels.size() == 12) continue;
+            all.panels.push_back(draw_time_plot(line, {.title = problem.experiments[e].name}));
+        }
+    }
+    return all;
 }
 
 } // namespace detail
 
 SIVID_DECL int run(robot const& r, disturbance_command const& c) {
     auto const data = read_data(r, c.dataset);
-    auto const problem = posed(r, data, c.effects);
+    auto const problem = posed(r, data, c.effects, {});
     disturbance_set set;
     least_disturbance_options options;
     disturbance_bound found;
+    std::vector<disturbance_share> curve;
     watch_interrupts();
     progress_line progress(c.quiet);
     try {
@@ -170,23 +235,47 @@ SIVID_DECL int run(robot const& r, disturbance_command const& c) {
                              detail::scales_from(c.errors, "--error"));
         require_valid(set, problem.model);
         progress.note("bounding the least disturbance of " + data.id);
-        options.seconds = c.budget;
+        options.seconds = c.budget / static_cast<double>(c.curve + 1);
         options.keep_going = wanted;
         found = least_disturbance(problem, set, options);
+        options.seconds *= static_cast<double>(c.curve);
+        if (c.curve > 0) curve = least_disturbance_curve(problem, set, c.curve, options);
     } catch (std::invalid_argument const& e) {
         throw bad_request(e.what());
     }
     progress.finish();
-    for (auto const& words : assumptions_of(r, data, c.effects)) found.assumptions.push_back(words);
+    for (auto const& words : assumptions_of(r, data, c.effects, {}, problem.model))
+        found.assumptions.push_back(words);
     prepare_folder(c.out);
     file_set files(c.out);
     files.add("disturbance.json", detail::disturbance_json(problem, set, found, data.id));
     files.add("disturbance.csv", detail::disturbance_csv(problem, found));
+    auto words = detail::disturbance_words(problem, set, found);
+    if (auto const next = detail::next_command(r, c, set, found); !next.empty())
+        words.push_back("which constants remain with 1.2 times that: " + next + " --out DIR");
+    report::page page({"Least disturbance", title_of(data, c.effects, {}, problem.model),
+                       "How large unknown functions of time beside the model must be"});
+    page.banner(found.witness ? report::outcome::proved : report::outcome::undecided, words.front(),
+                "Bounds hold for all measurable functions of time.");
+    page.plain_words({words.begin() + 1, words.end()});
+    page.section("Over time").add(detail::witness_figure(problem, set, found));
+    if (c.curve > 0)
+        page.section("Equations against channels")
+            .add(report::figure{.panels = {detail::curve_picture(curve)},
+                                .title = "Sizes that are enough together.",
+                                .caption = "Proved at the rings; lines only join them."});
+    page.assumptions(found.assumptions).footer(page_footer(c.command_line));
+    files.add("disturbance.html", page.str());
+    if (c.curve > 0)
+        files.add("curve.csv", detail::curve_csv(curve));
+    else
+        files.drop("curve.csv"); // of an earlier result
     files.commit();
-    detail::print_disturbance(problem, set, found);
+    auto indent = "";
+    for (auto const& line : words) std::cout << std::exchange(indent, "  ") << line << "\n";
     std::cout << "  " << report::duration_text(found.seconds) << ", " << found.boxes
-              << " boxes; written: " << (c.out / "disturbance.json").string()
-              << " and disturbance.csv\n";
+              << " boxes; written: " << (c.out / "disturbance.html").string()
+              << " and disturbance.json, disturbance.csv" << (c.curve > 0 ? ", curve.csv\n" : "\n");
     return found.witness && found.size.lower() >= 0.5 * found.size.upper() ? done : undecided;
 }
 

@@ -111,12 +111,15 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     if (c.scenario.empty() == c.dataset.empty())
         throw bad_request("give a data set or --scenario, one of the two");
     bool const of_data = c.scenario.empty();
+    auto const disturbances = disturbances_from(c.disturbed, c.errors);
+    if (!of_data && !disturbances.empty())
+        throw bad_request("--disturbance, --error: they are allowed for in data; give a data set");
     std::string name;
     std::optional<identification_problem> posed_problem;
     if (of_data) {
         auto const data = read_data(r, c.dataset);
         name = data.id;
-        posed_problem = posed(r, data, {});
+        posed_problem = posed(r, data, {}, disturbances);
     } else {
         posed_problem = detail::measured(r, c);
     }
@@ -144,6 +147,8 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     decision_json_options json;
     report::decision_page_options page;
     page.dataset = json.dataset = name;
+    if (!disturbances.empty())
+        page.dataset += " for all disturbances of " + in_words(disturbances, problem.model);
     page.scenario = json.scenario = c.scenario;
     page.footer = page_footer(c.command_line);
     file_set files(c.out);
@@ -152,6 +157,8 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     files.commit();
     detail::print_channels(problem, found);
     if (worth != nullptr) detail::print_worth(problem, *worth);
+    for (auto const& words : assumptions_of(disturbances, problem.model))
+        std::cout << "  - " << words << "\n";
     std::cout << "  written: " << (c.out / "ranking.html").string() << " and ranking.json\n";
     return found.complete && (worth == nullptr || worth->complete) ? done : undecided;
 }

@@ -7,9 +7,13 @@
 #include <sivid/compiled.hpp>
 #include <sivid/diagnosis/hold_out/detail/holdout_judgement.hpp>
 #include <sivid/diagnosis/holdout.hpp>
+#include <sivid/model/disturbance.hpp>
+#include <sivid/model/unit.hpp>
+#include <sivid/paving/least_disturbance.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -98,6 +102,65 @@ SIVID_DECL void judge_by_holdout(diagnosis_run& run, holdout const& data, double
         run.result.shrink_over_fits = shrink(figures.inflation_before, *figures.over_fits_after);
     }
     run.result.causes.front().holdout = std::move(figures);
+}
+
+SIVID_DECL needed_disturbance disturbance_needed(identification_problem const& base,
+                                                 std::size_t equation, double seconds,
+                                                 feasibility_test_options const& test) {
+    auto const& about = base.model.about;
+    auto const& state = about.states[equation];
+    disturbance_set const set{{{equation, 1}}, {}};
+    least_disturbance_options options;
+    options.seconds = seconds;
+    options.test = test;
+    options.keep_going = test.keep_going;
+    auto const found = least_disturbance(base, set, options);
+    needed_disturbance result{state.equation_name(),
+                              rate_unit(state.unit, about.time_unit),
+                              found.size,
+                              {},
+                              {},
+                              {},
+                              seconds};
+    auto const window = [&](disturbed_stretch const& s) {
+        return time_window{base.experiments[s.experiment].name, s.from, s.to};
+    };
+    for (auto const& s : found.needed) result.reached.push_back(window(s));
+    auto strong = strong_stretches(set, found);
+    strong.resize(std::min<std::size_t>(strong.size(), 3));
+    for (auto const& s : strong) result.strongest.push_back(window(s));
+    return result;
+}
+
+SIVID_DECL void bound_disturbances(diagnosis_run& run, double seconds,
+                                   feasibility_test_options const& test) {
+    auto& d = run.result;
+    auto const& base = run.base;
+    auto const lenient = [](experiment const& e) { return e.outliers > 0; };
+    if (d.answer != answer_kind::unexplained || base.model.has_memory() ||
+        std::ranges::any_of(base.experiments, lenient))
+        return;
+    auto const place_of = [&](std::size_t i) {
+        return std::ranges::find_if(d.where, [&](suspected_place const& p) {
+            return p.kind == "equation" && p.name == base.model.about.states[i].equation_name();
+        });
+    };
+    auto equations = driven_equations(base.model);
+    std::ranges::stable_sort(equations, {},
+                             [&](std::size_t i) { return place_of(i) - d.where.begin(); });
+    work_limit const limit(seconds, test.keep_going);
+    std::vector<needed_disturbance> all;
+    for (std::size_t k = 0; k < equations.size() && limit(); ++k) {
+        double const own = limit.left() / static_cast<double>(equations.size() - k);
+        auto next = disturbance_needed(base, equations[k], own, limited(test, limit));
+        if (auto const p = place_of(equations[k]); p != d.where.end()) next.regime = p->regime;
+        bool const says = next.size.lower() > 0 || std::isfinite(next.size.upper());
+        if (says) all.push_back(std::move(next));
+    }
+    d.by_clock = d.by_clock || limit.late();
+    if (all.empty()) return;
+    if (!d.remainder) d.remainder = unexplained_remainder{{}, d.inflation, d.where};
+    d.remainder->disturbances = std::move(all);
 }
 
 } // namespace sivid

@@ -38,6 +38,13 @@ public:
         json_.maybe("remainder", d_->remainder, [&](unexplained_remainder const& r) {
             json_.begin_object().members("effects", r.effects, "inflation", r.inflation);
             places(r.where);
+            json_.list("disturbances", r.disturbances, [&](needed_disturbance const& n) {
+                json_.begin_object().members("equation", n.equation, "unit", n.unit);
+                json_.members("size", n.size);
+                windows("reached", n.reached);
+                windows("strongest", n.strongest);
+                json_.members("regime", n.regime, "seconds", n.seconds).end_object();
+            });
             json_.end_object();
         });
         json_.maybe("next", d_->next, [&](next_experiment const& n) {
@@ -101,10 +108,13 @@ private:
             json_.begin_object().members("equation", r.equation, "sensors", r.sensors);
             json_.members("proved", r.proved, "definition", r.definition);
             json_.members("assumptions", r.assumptions);
-            json_.list("windows", r.windows, [&](time_window const& w) {
-                json_.object("scenario", w.scenario, "from", w.from, "to", w.to);
-            });
+            windows("windows", r.windows);
             json_.end_object();
+        });
+    }
+    void windows(std::string_view key, std::vector<time_window> const& all) {
+        json_.list(key, all, [&](time_window const& w) {
+            json_.object("scenario", w.scenario, "from", w.from, "to", w.to);
         });
     }
     void places(std::vector<suspected_place> const& all) {

@@ -44,9 +44,13 @@ public:
         d.shrink_fit = maybe_range(shrink.at("fit"));
         d.shrink_holdout = maybe_range(shrink.at("holdout"));
         d.shrink_over_fits = maybe_range(shrink.at("holdout_over_fits"));
-        if (auto const& rest = root.at("remainder"); !is_null(rest))
+        if (auto const& rest = root.at("remainder"); !is_null(rest)) {
             d.remainder = unexplained_remainder{
                 texts(rest.at("effects")), outward(rest.at("inflation")), places(rest.at("where"))};
+            if (auto const* all = rest.find("disturbances")) // earlier versions have none
+                for (auto const& n : all->elements())
+                    d.remainder->disturbances.push_back(disturbance(n));
+        }
         d.unobservable = texts(root.at("unobservable"));
         d.assumptions = texts(root.at("assumptions"));
         d.interrupted = root.at("interrupted").boolean();
@@ -138,6 +142,18 @@ private:
     [[nodiscard]] static time_window window(json_value const& entry) {
         return {entry.at("scenario").any_string(), nearest_number(entry.at("from")),
                 nearest_number(entry.at("to"))};
+    }
+    [[nodiscard]] static needed_disturbance disturbance(json_value const& entry) {
+        needed_disturbance result;
+        result.equation = entry.at("equation").string();
+        result.unit = entry.at("unit").any_string();
+        result.size = outward(entry.at("size"));
+        for (auto const& w : entry.at("reached").elements()) result.reached.push_back(window(w));
+        for (auto const& w : entry.at("strongest").elements())
+            result.strongest.push_back(window(w));
+        result.regime = entry.at("regime").any_string();
+        result.seconds = nearest_number(entry.at("seconds"));
+        return result;
     }
     [[nodiscard]] static broken_relation_report relation(json_value const& entry) {
         broken_relation_report result{entry.at("equation").string(),

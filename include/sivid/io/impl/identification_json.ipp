@@ -32,6 +32,18 @@ inline void write_shown(json_writer& json, identification_problem const& problem
     json.end_object();
 }
 
+/// What disturbances are allowed for, in the digits that were told.
+inline void write_allowed(json_writer& json, allowed_disturbances const& allowed) {
+    json.key("disturbances").begin_object();
+    for (auto const& [key, all] :
+         {std::pair{"equations", &allowed.equations}, std::pair{"channels", &allowed.channels}}) {
+        json.key(key).begin_object();
+        for (auto const& [name, most] : *all) json.members(name, most);
+        json.end_object();
+    }
+    json.end_object();
+}
+
 /// What the reason for stopping follows from.
 inline void write_effort(json_writer& json, search_effort const& e) {
     json.key("search").begin_object(json_writer::layout::one_line);
@@ -146,6 +158,7 @@ SIVID_DECL std::string identification_json(identification_problem const& problem
         json.key("source").object("folder", options.source_folder, "sha256", options.source_digest);
     json.members("problem", problem_digest(problem), "time_unit", problem.model.about.time_unit);
     if (!options.effects.empty()) json.members("effects", options.effects);
+    if (!options.disturbances.empty()) io_detail::write_allowed(json, options.disturbances);
     bool const inside = found.paving.count(box_verdict::inside) > 0 ||
                         share_of_whole(found.paving.inner_volume()).lower() > 0;
     auto const grounds = grounds_for(found.witness.has_value(), inside, found.paving.has_outer());

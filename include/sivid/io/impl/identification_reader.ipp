@@ -108,6 +108,14 @@ inline void read_subject(json_value const& root, stored_identification& result) 
     if (auto const* effects = root.find("effects")) {
         for (auto const& name : effects->elements()) result.effects.push_back(name.string());
     }
+    auto const bounds = [](json_value const& list) {
+        allowed_disturbances::bounds all;
+        for (std::size_t k = 0; k < list.members().size(); ++k)
+            all.emplace_back(list.name_of(k), list.members()[k].number());
+        return all;
+    };
+    if (auto const* allowed = root.find("disturbances"))
+        result.disturbances = {bounds(allowed->at("equations")), bounds(allowed->at("channels"))};
 }
 
 /// The verdict with its grounds, and why and how the search ended.

@@ -2,6 +2,7 @@
 #ifndef SIVID_IO_RESULT_STORED_IDENTIFICATION_HPP
 #define SIVID_IO_RESULT_STORED_IDENTIFICATION_HPP
 
+#include <sivid/io/allowed_disturbances.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/paving/identification.hpp>
 #include <sivid/paving/outliers/fewest_outliers.hpp>
@@ -66,6 +67,7 @@ struct stored_identification {
     std::string problem;       ///< of `problem_digest`; "" when the file has none
     std::string time_unit;     ///< of the model; "" when the file has none
     std::vector<std::string> effects; ///< joined to the data set's model, by name
+    allowed_disturbances disturbances;
     sivid::verdict verdict = sivid::verdict::undecided;
     std::string grounds; ///< what the verdict is said to rest on; "" in older files
     stop_reason reason = stop_reason::decided;

@@ -123,6 +123,15 @@ SIVID_DECL void require_valid(disturbance_set const& set, recorded_model const& 
                                "disturb one that is seen");
 }
 
+SIVID_DECL std::vector<std::size_t> driven_equations(recorded_model const& model) {
+    auto const shown = model_detail::states_that_show(model);
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < model.rate.size(); ++i)
+        if (shown[i] && (model.g.depends(model.rate[i]) & (on_constant | on_input)) != 0)
+            result.push_back(i);
+    return result;
+}
+
 SIVID_DECL identification_problem with_disturbance(identification_problem problem,
                                                    disturbance_set const& set, double size) {
     using traits = interval_traits<interval>;

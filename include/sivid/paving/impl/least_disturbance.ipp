@@ -10,14 +10,12 @@
 #include <sivid/paving/disturbance/detail/disturbance_program.hpp>
 #include <sivid/paving/disturbance/detail/disturbance_witness.hpp>
 #include <sivid/paving/disturbance/detail/disturbed_motion.hpp>
-#include <sivid/paving/disturbance/detail/narrowed_tube.hpp>
 #include <sivid/paving/disturbance/detail/weighted_motion.hpp>
 #include <sivid/paving/relation/relation_contraction.hpp>
 #include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -60,7 +58,6 @@ private:
         double lower = 0;
         std::vector<double> influence;
         std::vector<disturbed_stretch> needed;
-        std::shared_ptr<std::vector<motion_tube> const> tubes; ///< of the part that it is of
     };
 
     void seek_witness() {
@@ -126,7 +123,7 @@ private:
     }
     /// What a program says of the motions without disturbances, where there is no witness.
     [[nodiscard]] double usual_size() {
-        part all{problem_->prior, 0, {}, {}, nullptr};
+        part all{problem_->prior, 0, {}, {}};
         std::vector<motion_tube> tubes;
         for (std::size_t s = 0; s < motions_.experiments(); ++s)
             tubes.push_back(motions_.tube(s, all.set, 0));
@@ -153,7 +150,7 @@ private:
     /// Halves the part of the least bound, until that is near the level. Where half of some
     /// parts say nothing, smaller ones will not soon.
     void seek_lower(box const& prior) {
-        std::vector<part> open{bounded({prior, 0, {}, {}, nullptr})};
+        std::vector<part> open{bounded({prior, 0, {}, {}})};
         auto const less = [](part const& a, part const& b) { return a.lower > b.lower; };
         auto const begun = boxes_;
         while (boxes_ < options_->boxes && limit_() && open.front().lower < enough()) {
@@ -167,7 +164,7 @@ private:
             open.pop_back();
             auto halves = bisect(whole.set, side, mid(whole.set[side]));
             for (auto* half : {&halves.first, &halves.second}) {
-                open.push_back(bounded({*half, whole.lower, {}, whole.needed, whole.tubes}));
+                open.push_back(bounded({*half, whole.lower, {}, whole.needed}));
                 std::push_heap(open.begin(), open.end(), less);
             }
         }
@@ -207,25 +204,13 @@ private:
         }
         return side;
     }
-    /// Bounds a part from below, by tubes that are narrowed where that has helped.
+    /// Bounds a part from below.
     [[nodiscard]] part bounded(part p) {
         ++boxes_;
         std::vector<motion_tube> tubes;
-        for (std::size_t s = 0; s < motions_.experiments(); ++s) {
+        for (std::size_t s = 0; s < motions_.experiments(); ++s)
             tubes.push_back(motions_.tube(s, p.set, level_));
-            if (p.tubes) tubes[s].narrow((*p.tubes)[s]);
-        }
         weigh(p, tubes);
-        double best = p.lower;
-        for (int round = 0; round < 3 && limit_() && p.lower < enough(); ++round) {
-            for (std::size_t s = 0; s < tubes.size(); ++s)
-                tubes[s] = narrowed_tube(motions_.within(s, tubes[s], p.set, level_), tubes[s],
-                                         *set_, p.set, level_, limit_);
-            weigh(p, tubes);
-            if (!(p.lower > 1.05 * best)) break;
-            best = p.lower;
-        }
-        p.tubes = std::make_shared<std::vector<motion_tube> const>(std::move(tubes));
         return p;
     }
     [[nodiscard]] double enough() const { return (1 - options_->relative_width) * level_; }
@@ -318,6 +303,57 @@ SIVID_DECL disturbance_bound least_disturbance(identification_problem const& pro
                                         "' allows outliers, which are not covered; allow none, or "
                                         "disturb the channel instead");
     return paving_detail::least_disturbance_work(problem, set, options)();
+}
+
+SIVID_DECL std::vector<disturbance_share>
+least_disturbance_curve(identification_problem const& problem, disturbance_set const& set,
+                        std::size_t points, least_disturbance_options options) {
+    if (set.equations.empty() || set.channels.empty() || points < 2)
+        throw std::invalid_argument("a curve needs equations and channels that are disturbed, and "
+                                    "at least 2 points");
+    options.seconds /= static_cast<double>(points);
+    auto const bounded = [&](double equations, double channels) {
+        auto own = set;
+        for (auto& q : own.equations) q.scale *= equations;
+        for (auto& q : own.channels) q.scale *= channels;
+        if (equations == 0) own.equations.clear();
+        if (channels == 0) own.channels.clear();
+        return disturbance_share{equations, channels, least_disturbance(problem, own, options)};
+    };
+    auto const needed = [](disturbance_bound const& found) {
+        double const most = found.size.upper(), least = found.size.lower();
+        return most > 0 && std::isfinite(most) ? most : least > 0 ? least : 1;
+    };
+    std::vector<disturbance_share> curve{bounded(1, 0)};
+    auto last = bounded(0, 1);
+    double const w = needed(curve.front().found), e = needed(last.found);
+    for (std::size_t k = 1; k + 1 < points; ++k) {
+        double const share = static_cast<double>(k) / static_cast<double>(points - 1);
+        curve.push_back(bounded((1 - share) * w, share * e));
+    }
+    curve.push_back(std::move(last));
+    return curve;
+}
+
+SIVID_DECL std::vector<disturbance_piece> strong_stretches(disturbance_set const& set,
+                                                           disturbance_bound const& found) {
+    std::vector<disturbance_piece> result;
+    for (auto const& p : found.pieces) {
+        auto const q = std::find_if(set.equations.begin(), set.equations.end(),
+                                    [&](auto const& e) { return e.index == p.equation; });
+        if (!(std::abs(p.value) >= 0.9 * found.size.upper() * q->scale) || p.value == 0) continue;
+        bool const goes_on = !result.empty() && result.back().to == p.from &&
+                             result.back().experiment == p.experiment &&
+                             result.back().equation == p.equation &&
+                             (result.back().value > 0) == (p.value > 0);
+        if (goes_on)
+            result.back().to = p.to;
+        else
+            result.push_back(p);
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](auto const& a, auto const& b) { return a.to - a.from > b.to - b.from; });
+    return result;
 }
 
 } // namespace sivid

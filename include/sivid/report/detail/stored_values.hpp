@@ -54,13 +54,13 @@ inline constexpr std::size_t fields_of =
         ? 2
     : one_of<T, axis, tube_piece, pose, projected_box, diagnosis_plot_data, compared_scenario,
              missing_rate, time_window, error_correlation, reading_steps, tried_candidates,
-             constant_at_end, unexplained_remainder, promised_width, channel_effects,
-             dependence_structure>
+             constant_at_end, promised_width, channel_effects, dependence_structure>
         ? 3
     : one_of<T, measured_sample, paving_projection, run_reach::cause, named_combination,
-             next_experiment, simulated_line, violating_motion, experiment_design,
-             manoeuvre_setting, exact_measurements, combination, measurement_worth,
-             measurement_group, model_description::state, model_description::constant>
+             next_experiment, unexplained_remainder, simulated_line, violating_motion,
+             experiment_design, manoeuvre_setting, exact_measurements, combination,
+             measurement_worth, measurement_group, model_description::state,
+             model_description::constant>
         ? 4
     : one_of<T, combination_view, scenario_view, statistics_view, named_estimate, predicted_tube,
              open_box, varied_input, bridged_input>
@@ -68,7 +68,7 @@ inline constexpr std::size_t fields_of =
     : one_of<T, parameter_view, broken_relation_report, noise_growth, promise, model_description>
         ? 6
     : one_of<T, plane_series, contraction_record, truth, tried_manoeuvre, ranking,
-             measurement_ranking>
+             measurement_ranking, needed_disturbance>
         ? 7
     : one_of<T, comparison_row, diagnosis_report_options, confined_gap> ? 8
     : one_of<T, decision_page_options, verification, parameter_effect>  ? 9

@@ -417,6 +417,7 @@ public:
           d_(&stored.claims),
           held_out_(options.held_out),
           limit_(options.seconds, options.test.keep_going),
+          test_(limited(options.test, limit_)),
           proof_(options.test, limit_),
           hulls_(base, catalogue, *d_, proof_, limit_) {}
 
@@ -440,6 +441,8 @@ public:
         add([&] { return check_parts(*base_, *d_, most(), proof_, limit_); });
         for (auto const& c : d_->confined)
             add([&] { return check_confined(*base_, c, whole_, proof_); });
+        if (d_->remainder && !d_->remainder->disturbances.empty())
+            add([&] { return disturbances(); });
         add([&] { return check_shrinks(*d_, answer()); });
         add([&] { return judged(); });
         all_.push_back(
@@ -511,6 +514,47 @@ private:
                 all.note(outcome::refuted, "the constants explain the data, the answer does not");
         }
         return all.finding(what, "none contradicts another");
+    }
+
+    /// What disturbances of single equations are needed: bounded anew, with as much work.
+    [[nodiscard]] check_finding disturbances() const {
+        finding_of_all all;
+        auto const& states = base_->model.about.states;
+        auto const within = [](std::vector<time_window> const& mine,
+                               std::vector<time_window> const& stated) {
+            return std::ranges::all_of(mine, [&](time_window const& m) {
+                return std::ranges::any_of(stated, [&](time_window const& w) {
+                    return m.scenario == w.scenario && w.from <= m.from && m.to <= w.to;
+                });
+            });
+        };
+        for (auto const& n : d_->remainder->disturbances) {
+            auto const of = std::ranges::find_if(
+                states, [&](auto const& s) { return s.equation_name() == n.equation; });
+            if (of == states.end()) {
+                all.note(outcome::refuted, "no equation " + n.equation);
+                continue;
+            }
+            try {
+                auto const found =
+                    disturbance_needed(*base_, static_cast<std::size_t>(of - states.begin()),
+                                       std::min(n.seconds, limit_.left()), test_);
+                bool const apart = found.size.lower() > n.size.upper() ||
+                                   found.size.upper() < n.size.lower() || found.unit != n.unit;
+                // Stretches are of disturbances up to the upper size; files round that.
+                bool const as_far = n.size.upper() <= found.size.upper() * (1 + 1e-9);
+                bool const same =
+                    n.size.lower() <= found.size.lower() && found.size.upper() <= n.size.upper() &&
+                    (n.reached.empty() || (as_far && within(found.reached, n.reached)));
+                all.note(apart  ? outcome::refuted
+                         : same ? outcome::verified
+                                : outcome::undecided,
+                         "the disturbance of " + n.equation + " is not bounded as closely again");
+            } catch (std::invalid_argument const& e) {
+                all.note(outcome::refuted, e.what());
+            }
+        }
+        return all.finding("disturbances", "those of single equations, from both sides");
     }
 
     [[nodiscard]] check_finding assumptions() const {
@@ -776,6 +820,7 @@ private:
     diagnosis const* d_;
     holdout const* held_out_;
     work_limit limit_;
+    feasibility_test_options test_;
     inflation_proof proof_;
     effect_hulls_check hulls_;
     outcome base_upper_ = outcome::nothing;       ///< of the upper end of the gap's inflation

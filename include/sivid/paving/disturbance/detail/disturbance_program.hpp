@@ -104,43 +104,6 @@ public:
         return read();
     }
 
-    /// For `weights_for`: how a state is best estimated where disturbances are of a size.
-    /// @param lasting  segments in which disturbances add up as if they were one
-    [[nodiscard]] bool prepare(double size, double lasting) {
-        for_each_row([](row& r, double) { r.stiff = 1, r.push = 0; });
-        double const ratio = std::max(size / unit_, 1e-12);
-        for (auto& c : chains_)
-            for (auto& g : c.segments)
-                for (auto* side : {&g.above, &g.below})
-                    for (std::size_t q = 0; q < side->size(); ++q)
-                        (*side)[q].stiff =
-                            (sized_[static_cast<index>(q)] > 0 ? 1 / (ratio * ratio) : 1) / lasting;
-        global_.back().stiff = 1e12 * (1 + 1 / (ratio * ratio)); // W stays
-        return factor_all();
-    }
-    /// Weights of the measurements of one experiment that nearly cancel a state at the begin of a
-    /// segment: those of the least squares estimate of it.
-    [[nodiscard]] std::vector<double> weights_for(std::size_t s, std::size_t begin,
-                                                  std::size_t state) {
-        auto& c = chains_[s];
-        target_ = {begin, static_cast<index>(state)};
-        vector side = vector::Zero(shared_);
-        backward(c, side, true);
-        beta_move_ = shared_cost_.solve(-side);
-        forward(c);
-        std::vector<double> result(c.samples, 0.0);
-        vector x = c.unit.cwiseProduct(c.move);
-        for (std::size_t k = 0; k <= c.segments.size(); ++k) {
-            for (auto const& m : c.at[k])
-                result[m.name] = (m.above.stiff + m.below.stiff) *
-                                 (m.by_state.dot(x) + m.by_shared.dot(beta_move_)) / m.size;
-            if (k == c.segments.size()) break;
-            auto const& g = c.segments[k];
-            x = g.step * x + g.by_shared * beta_move_ + g.kick * g.move;
-        }
-        return result;
-    }
-
 private:
     /// \f$ a \cdot v \le reach \f$ with its slack and multiplier; a is known from where it stands.
     struct row {
@@ -353,9 +316,6 @@ private:
     /// The Riccati recursion of all experiments with the stiffness of the rows.
     [[nodiscard]] bool factor() {
         for_each_row([](row& r, double) { r.stiff = r.multiplier / r.slack; });
-        return factor_all();
-    }
-    [[nodiscard]] bool factor_all() {
         matrix total = matrix::Zero(shared_, shared_);
         for (index j = 0; j + 1 < shared_; ++j)
             total(j, j) += global_[static_cast<std::size_t>(2 * j)].stiff +
@@ -439,8 +399,7 @@ private:
             r.multiplier_step = r.push - r.multiplier + r.stiff * r.step;
         });
     }
-    /// @param aimed  with the target for a goal
-    void backward(chain& c, vector& side, bool aimed = false) const {
+    void backward(chain& c, vector& side) const {
         auto const all = c.n + shared_;
         vector p = vector::Zero(all);
         for (auto k = c.segments.size() + 1; k-- > 0;) {
@@ -461,7 +420,6 @@ private:
                 }
                 p = std::move(next);
             }
-            if (aimed && target_.first == k) p[target_.second] += 1;
             for (auto const& s : c.at[k]) {
                 if (s.above.push != 0) p += s.above.push * entries(s, true, c.n);
                 if (s.below.push != 0) p += s.below.push * entries(s, false, c.n);
@@ -552,7 +510,6 @@ private:
     std::vector<row> global_; ///< sides of parameters, then that of the size
     std::size_t rows_ = 0;
     double infeasible_ = 0;
-    std::pair<std::size_t, index> target_{0, 0}; ///< segment, state
     approximate_cholesky shared_cost_;
 };
 

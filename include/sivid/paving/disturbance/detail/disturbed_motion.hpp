@@ -53,11 +53,6 @@ struct disturbed_motion {
 struct motion_tube {
     std::vector<box> at, over;
 
-    /// What both say.
-    void narrow(motion_tube const& known) {
-        for (std::size_t k = 0; k < at.size(); ++k) narrow(at[k], known.at[k]);
-        for (std::size_t k = 0; k < over.size(); ++k) narrow(over[k], known.over[k]);
-    }
     static void narrow(box& x, box const& known) {
         for (std::size_t i = 0; i < x.size(); ++i) x[i] = agreed(x[i], known[i]);
     }

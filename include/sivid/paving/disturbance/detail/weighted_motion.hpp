@@ -47,40 +47,28 @@ public:
         for (auto const& p : parameters) away_.push_back(traits::sub(p, traits::point(mid(p))));
     }
 
-    /// A state at a node.
-    struct place {
-        std::size_t node = 0, state = 0;
-    };
-
-    /// @param target  enters the sum with weight 1, without a measurement; `enclosed` bounds it
     /// @returns  the node before which nothing counts: where no measurement is weighted before it
     ///           and the weights of the states have nearly died away
     std::size_t add(disturbed_motion const& motion, plain_motion const& plain,
-                    std::vector<double> const& weights, place const* target = nullptr) {
+                    std::vector<double> const& weights) {
         auto const n = static_cast<Eigen::Index>(motion.beside.front().size());
         std::vector<std::size_t> order;
         for (std::size_t i = 0; i < weights.size(); ++i)
             if (weights[i] != 0) order.push_back(i);
-        if (order.empty() && target == nullptr) return 0;
+        if (order.empty()) return 0;
         work_clock::count(motion.cells.size() * static_cast<std::size_t>(n * (2 * n + 4)),
                           work_clock::interval);
         Eigen::VectorXd after = Eigen::VectorXd::Zero(n); // behind the node
         auto next = order.size();
-        auto last = order.empty() ? 0 : motion.samples[order.back()].node;
-        if (target != nullptr) last = std::max(last, target->node);
-        for (auto k = last + 1; k-- > 0;) {
+        for (auto k = motion.samples[order.back()].node + 1; k-- > 0;) {
             Eigen::VectorXd before = after;
             std::vector<interval> jump(static_cast<std::size_t>(n), traits::point(0.0));
             while (next > 0 && motion.samples[order[next - 1]].node == k) {
                 auto const i = order[--next];
                 add_sample(motion.samples[i], weights[i], before, jump);
             }
-            if (target != nullptr && target->node == k) {
-                before[static_cast<Eigen::Index>(target->state)] += 1;
-                jump[target->state] = traits::add(jump[target->state], traits::point(1.0));
-            }
-            bool const first = k == 0 || (target == nullptr && next == 0 &&
-                                          charge(before, motion.beside[k]) < 1e-3 * mig(left_));
+            bool const first =
+                k == 0 || (next == 0 && charge(before, motion.beside[k]) < 1e-3 * mig(left_));
             if (first) before.setZero();
             for (Eigen::Index j = 0; j < n; ++j) {
                 auto const i = static_cast<std::size_t>(j);
@@ -94,12 +82,6 @@ public:
             after = begin;
         }
         return 0;
-    }
-    /// Encloses the target, beside the line, for disturbances up to `size`.
-    [[nodiscard]] interval enclosed(double size) const {
-        double const most = detail::mul_up(size, most_);
-        if (!std::isfinite(most)) return traits::entire();
-        return traits::sub(traits::bounds(-most, most), total());
     }
     [[nodiscard]] weighted_bound proved() {
         auto const sum = total();
