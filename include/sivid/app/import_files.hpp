@@ -53,7 +53,7 @@ struct robot_import {
 /// decided, and which inertial constants can be known. @returns an exit code
 /// @throws bad_request, input_error, output_error
 inline int import_robot(std::filesystem::path const& file, std::filesystem::path const& out,
-                        robot_import const& how, bool quiet) {
+                        [[maybe_unused]] robot_import const& how, [[maybe_unused]] bool quiet) {
     if (out.empty()) throw output_error("--out is empty: give a folder for the model");
     if (file.extension() == ".xacro")
         throw bad_request(in_quotes(file.string()) +

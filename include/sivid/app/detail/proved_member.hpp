@@ -87,7 +87,7 @@ private:
         auto const data = data_of(stored.source_folder, stored.source_digest);
         std::optional<remembering_problem> remembering;
         auto& p = result_.problem;
-        p = posed(of_, data, stored.effects, std::nullopt, &remembering);
+        p = posed(of_, data, stored.effects, stored.disturbances, std::nullopt, &remembering);
         require_same_problem(p, stored, command_.result / "result.json");
         for (auto& e : p.experiments) e.outliers = stored.budget.at(e.name);
         require_problem(stored.problem);
