@@ -95,7 +95,8 @@ finished identified(served const& s, std::string const& bound, std::string const
 }
 
 finished verified(served const& s, std::string const& what, std::string const& of = "found") {
-    return run({"verify", s.at(of), "--scenario", "tea", "--require", what, "--quiet"});
+    return run(
+        {"verify", s.at(of), "--scenario", "tea", "--require", what, "--quiet", "--budget", "2"});
 }
 
 } // namespace
@@ -188,7 +189,7 @@ TEST_CASE("nothing is proved that a worst disturbance breaks") {
     // A law that would hold without disturbances.
     auto const law = [&](std::string const& goal) {
         return run({"verify", s.at("found"), "--scenario", "tea", "--law", "h = 2 * (30 - T)",
-                    "--require", goal, "--quiet"});
+                    "--require", goal, "--quiet", "--budget", "2"});
     };
     auto const kept = law("T at end > 21");
     CAPTURE(kept.out, kept.err);

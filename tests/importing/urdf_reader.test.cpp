@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Descriptions of robots: what is read, and what is refused by its name.
+#include "io/support.hpp"
 #include "support/catch.hpp"
 #include "support/urdf_texts.hpp"
 
@@ -22,9 +23,9 @@ using urdf_texts::with;
 namespace {
 
 described_robot read(std::string const& text, urdf_options const& options = {}) {
-    auto const file = std::filesystem::temp_directory_path() / "sivid_urdf_reader.urdf";
-    std::ofstream(file, std::ios::binary) << text;
-    return read_urdf(file, options);
+    io_support::temporary_folder const folder;
+    folder.write("robot.urdf", text);
+    return read_urdf(folder.path() / "robot.urdf", options);
 }
 /// What is said of a text that cannot be read.
 std::string refused(std::string const& text, urdf_options const& options = {}) {

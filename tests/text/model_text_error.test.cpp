@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/text/model_text_error.hpp>
 
+#include "io/support.hpp"
 #include "support/catch.hpp"
 #include "text/texts.hpp"
 
@@ -157,10 +158,9 @@ TEST_CASE("files that are no text are refused") {
     refuses("a = [}", "this bracket closes what is not open");
     CHECK_THROWS_AS(read_model("nowhere.toml"), input_error);
 
-    auto const file = std::filesystem::temp_directory_path() / "sivid_too_large.toml";
-    std::ofstream(file) << std::string(300'000, '\n');
-    CHECK_THROWS_AS(read_model(file), model_text_error);
-    std::filesystem::remove(file);
+    io_support::temporary_folder const folder;
+    folder.write("large.toml", std::string(300'000, '\n'));
+    CHECK_THROWS_AS(read_model(folder.path() / "large.toml"), model_text_error);
 
     std::string windows = "\xEF\xBB\xBF"; // a byte-order mark, and CRLF
     for (char const c : texts::motor) windows += c == '\n' ? std::string("\r\n") : std::string{c};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The equations of described robots against MuJoCo, which has an implementation of its own.
+#include "io/support.hpp"
 #include "support/catch.hpp"
 #include "support/urdf_texts.hpp"
 #include "text/values.hpp"
@@ -68,15 +69,15 @@ private:
     std::unique_ptr<mjData, frees> data_;
 };
 
-std::filesystem::path stored(std::string const& text) {
-    auto const file = std::filesystem::temp_directory_path() / "sivid_mujoco_robot.urdf";
-    std::ofstream(file) << text;
-    return file;
+sivid::described_robot read(std::string const& text) {
+    io_support::temporary_folder const folder;
+    folder.write("robot.urdf", text);
+    return sivid::read_urdf(folder.path() / "robot.urdf");
 }
 
 /// The largest difference of accelerations over the largest acceleration, at 1000 states.
 double difference(std::string const& urdf, unsigned seed) {
-    auto const robot = sivid::read_urdf(stored(urdf));
+    auto const robot = read(urdf);
     auto const model = sivid::model_from_text(sivid::text_of_robot(robot, 0).model, "robot.toml");
     other_robot other(urdf);
     urdf_texts::random_robot random(seed);
@@ -124,7 +125,7 @@ TEST_CASE("products of inertia have the sign that MuJoCo gives them", "[importin
 
 TEST_CASE("a changed mass is seen by the comparison with MuJoCo", "[importing][mujoco]") {
     auto const text = urdf_texts::random_robot(3)(3);
-    auto const robot = sivid::read_urdf(stored(text));
+    auto const robot = read(text);
     REQUIRE(difference(text, 5) < 1e-9);
     CHECK(robot.joints[0].inertial[0] > 0.5);
     auto const at = text.find("mass value=\"") + 12;

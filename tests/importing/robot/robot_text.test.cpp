@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Models that are written of described robots: their equations, priors, effects, and what can be
 // known of their constants.
+#include "io/support.hpp"
 #include "support/catch.hpp"
 #include "support/urdf_texts.hpp"
 #include "text/values.hpp"
@@ -30,9 +31,9 @@ using namespace sivid;
 namespace {
 
 described_robot read(std::string const& text) {
-    auto const file = std::filesystem::temp_directory_path() / "sivid_robot_text.urdf";
-    std::ofstream(file, std::ios::binary) << text;
-    return read_urdf(file);
+    io_support::temporary_folder const folder;
+    folder.write("robot.urdf", text);
+    return read_urdf(folder.path() / "robot.urdf");
 }
 text_model model_of(std::string const& urdf, double within = 0.2) {
     return model_from_text(text_of_robot(read(urdf), within).model, "robot.toml");

@@ -5,6 +5,7 @@
 #include <sivid/app/app.hpp>
 
 #include <sivid/app/commands.hpp>
+#include <sivid/app/detail/hosting.hpp>
 #include <sivid/app/detail/parameter_ranges.hpp>
 #include <sivid/app/import_files.hpp>
 #include <sivid/app/names.hpp>
@@ -22,7 +23,6 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -944,37 +944,6 @@ inline std::string line_of(robot const& r, int argc, char** argv) {
     if (!file.empty() && argc > 1) told.insert(told.begin() + 2, file.data());
     return command_line(r.name, static_cast<int>(told.size()), told.data());
 }
-
-/// For as long as it lives, keeps what a stream is given.
-class kept_stream {
-public:
-    explicit kept_stream(std::ostream& s) : stream_{s}, own_{s.rdbuf(kept_.rdbuf())} {}
-    ~kept_stream() { stream_.rdbuf(own_); }
-    kept_stream(kept_stream const&) = delete;
-    kept_stream& operator=(kept_stream const&) = delete;
-    [[nodiscard]] std::string text() const { return kept_.str(); }
-
-private:
-    std::ostringstream kept_;
-    std::ostream& stream_;
-    std::streambuf* own_;
-};
-
-/// For as long as it lives, a command has a host; one at a time.
-class hosting {
-public:
-    explicit hosting(host const& h) : alone_{one_at_a_time()} { host_of_command = &h; }
-    ~hosting() { host_of_command = nullptr; }
-    hosting(hosting const&) = delete;
-    hosting& operator=(hosting const&) = delete;
-
-private:
-    static std::mutex& one_at_a_time() {
-        static std::mutex one;
-        return one;
-    }
-    std::lock_guard<std::mutex> alone_;
-};
 
 } // namespace detail
 

@@ -444,6 +444,9 @@ inline check_finding late(std::string what) {
     // Boxes wait unless the search came to its end.
     if (stored.effort && r != stop_reason::decided)
         holds = holds && pending == (r != stop_reason::accuracy_reached);
+    // The search has decided nothing; the box about the witness came behind it.
+    auto const inside = std::ranges::count(rows, box_verdict::inside, &paved_box::verdict);
+    holds = holds && (r != stop_reason::too_blurred || (!undecided && inside <= 1));
     // Where measurements came one by one there is no budget of memory.
     holds = holds && (stored.effort || stored.grounds.empty() || r != stop_reason::memory_budget);
     if (stored.effort && pending) { // otherwise no budget was looked at in the end
