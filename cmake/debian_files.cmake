@@ -58,6 +58,6 @@ License: Expat
         endif()
     endforeach()
     if(package STREQUAL "sivid_programs" AND NOT programs)
-        message(FATAL_ERROR "no program is built: cmake --build <build> --target hovercraft sivid-import")
+        message(FATAL_ERROR "no program is built: cmake --build <build> --target hovercraft sivid")
     endif()
 endforeach()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Install rules, in components: sivid_headers (headers, package files for find_package(sivid) and pkg-config, guides) and
-# sivid_programs (sivid, sivid-hovercraft, sivid-import and their data) here, sivid_library (libsivid.so.0) and
+# sivid_programs (sivid, sivid-hovercraft and its data) here, sivid_library (libsivid.so.0) and
 # sivid_linking (what a program that links to it needs beside headers) in library.cmake. `cmake --install <build> --component ...` takes one.
 
 include(GNUInstallDirs)

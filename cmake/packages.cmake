@@ -86,7 +86,7 @@ endif()
 set(sivid_all_flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}")
 if(SIVID_NATIVE OR SIVID_SANITIZE OR sivid_all_flags MATCHES "=native")
     message(STATUS "sivid: packages of headers only; programs are compiled for this machine alone, or with sanitizers")
-elseif(TARGET hovercraft AND TARGET sivid-import)
+elseif(TARGET hovercraft AND TARGET sivid)
     set(needed "")
     if(SIVID_LIBRARY)
         set(needed "libsivid${PROJECT_VERSION_MAJOR} (= ${sivid_this_version})")
@@ -96,7 +96,7 @@ elseif(TARGET hovercraft AND TARGET sivid-import)
         DESCRIPTION "set-inversion validated identification (programs)
 sivid-hovercraft identifies, checks, predicts and diagnoses a hovercraft from
 its records, with proof; sivid does so with a model of any robot that is a
-text; both write reports. sivid-import turns tables, MATLAB
+text; both write reports and turn tables, MATLAB
 files and logs of serial streams into data sets.")
 endif()
 if(TARGET sivid_python)

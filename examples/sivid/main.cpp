@@ -21,15 +21,14 @@ constexpr char const* usage =
 
 bool asks_for_help(std::string_view word) { return word == "--help" || word == "-h"; }
 
-/// Help needs no model: that of a robot without one. Nor does the description of a robot, of which
-/// a model is made.
+/// Help needs no model: that of a robot without one. Nor do imports.
 int run_without_model(int argc, char** argv, std::string const& file = "MODEL.toml") {
     sivid::text_model none;
     none.about = usage;
     return sivid::app::run(sivid::app::robot_of_text("sivid", file, none), argc, argv);
 }
-bool is_description(std::string_view command, std::filesystem::path const& file) {
-    return command == "import" && (file.extension() == ".urdf" || file.extension() == ".xacro");
+bool is_import(std::string_view command, std::filesystem::path const& file) {
+    return command == "import" && file.extension() != ".toml";
 }
 
 /// @throws bad_request  for what is none by its name, the word that usually follows
@@ -56,7 +55,7 @@ int main(int argc, char** argv) {
         run_without_model(argc + 1, words.data());
         return sivid::app::bad_input;
     }
-    if (is_description(argv[1], argv[2])) return run_without_model(argc, argv, "");
+    if (is_import(argv[1], argv[2])) return run_without_model(argc, argv, "");
     std::optional<sivid::app::robot> robot;
     int const code = sivid::app::guarded("sivid", [&] {
         robot = sivid::app::robot_of_text("sivid", argv[2], model_in(argv[2]));

@@ -109,7 +109,7 @@ class Data:
 
     @classmethod
     def read(cls, folder) -> "Data":
-        """A data set that is a folder (``sivid-dataset-1``), of ``sivid-import`` or ``write``; it stays where it is."""
+        """A data set that is a folder (``sivid-dataset-1``), of ``sivid import`` or ``write``; it stays where it is."""
         data = cls.__new__(cls)
         data._folder = Path(folder)
         data.protocol = ""

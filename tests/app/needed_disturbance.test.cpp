@@ -6,6 +6,7 @@
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/disturbance.hpp>
 #include <sivid/report/diagnosis_words.hpp>
+#include <sivid/text/read_model.hpp>
 #include <sivid/verifier/diagnosis_check.hpp>
 
 #include "io/support.hpp"
@@ -24,29 +25,21 @@ using namespace sivid::literals;
 namespace {
 
 /// A sledge that is pushed and rubs.
-struct sledge {
-    static constexpr auto name = "sledge";
-    static constexpr auto states = sivid::states({{"x", "m", 100}, {"v", "m/s", 10}});
-    static constexpr auto inputs = sivid::inputs({{"u", "m/s^2"}});
-    static constexpr auto channels = sivid::channels({{"x", "m"}});
-    static constexpr auto constants = sivid::constants({{"c", "1/s", 1_dec}});
-    template <class T>
-    auto rate(T const&, states_of<sledge, T> const& x, constants_of<sledge, T> const& c,
-              inputs_of<sledge, T> const& u) const {
-        return states_of<sledge, T>{x[1], u[0] - c[0] * x[1]};
-    }
-    template <class T>
-    auto observe(T const&, states_of<sledge, T> const& x, constants_of<sledge, T> const&,
-                 inputs_of<sledge, T> const&) const {
-        return channels_of<sledge, T>{x[0]};
-    }
-};
+recorded_model sledge() {
+    return model_from_text("format = \"sivid-model-1\"\nname = \"sledge\"\n"
+                           "states = { x = \"100 m\", v = \"10 m/s\" }\n"
+                           "inputs = { u = \"m/s^2\" }\nconstants = { c = \"1 1/s\" }\n"
+                           "outputs = { x = \"x\" }\n"
+                           "equations = { x = \"v\", v = \"u - c*v\" }\n",
+                           "sledge.toml")
+        .model;
+}
 
 /// Readings of x within 2 mm from a sledge that is braked by `size` from 1 to 1.6 s.
 identification_problem braked(double size) {
     support::draws draw(5);
     identification_problem p;
-    p.model = record_model(sledge{});
+    p.model = sledge();
     p.choice.unknown = {"c"};
     p.prior = box{interval(0.5, 1.5)};
     experiment e;
@@ -85,7 +78,7 @@ diagnosis_run unexplained(identification_problem base) {
 } // namespace
 
 TEST_CASE("equations on which something acts are disturbed, definitions are not") {
-    auto const model = record_model(sledge{});
+    auto const model = sledge();
     CHECK(driven_equations(model) == std::vector<std::size_t>{1});
 }
 

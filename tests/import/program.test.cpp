@@ -17,7 +17,8 @@ using io_support::temporary_folder;
 
 namespace {
 
-support::finished_program run(std::vector<std::string> const& arguments) {
+support::finished_program run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "import");
     return support::run_program(IMPORT_PROGRAM, arguments);
 }
 
@@ -129,7 +130,7 @@ TEST_CASE("compressed MATLAB files: read, or refused with a way out", "[import]"
     auto const whole = import_mat(packed);
     if (whole.code == 2) {
         CHECK_THAT(whole.err, ContainsSubstring("libmatio-dev"));
-        SIVID_SKIP("sivid-import was built without libmatio");
+        SIVID_SKIP("sivid was built without libmatio");
     }
     CHECK(whole.code == 0);
     CHECK_THAT(folder.read("out/A.measurements.csv"), ContainsSubstring("\n1,4,0.1\n"));

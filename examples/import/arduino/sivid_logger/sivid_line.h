@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One line of a log that sivid-import reads as a serial source with "check_sum": "crc16":
+// One line of a log that `sivid import` reads as a serial source with "check_sum": "crc16":
 //   4294966296,80,-512*7D1C
 // whole numbers between commas, a star, and the CRC-16/CCITT of all before the star.
 #ifndef SIVID_LINE_H

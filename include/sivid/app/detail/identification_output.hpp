@@ -43,7 +43,7 @@ inline void print_tried(contraction_journal const& journal) {
         auto const &by = row[0], &outcome = row[1], &why = row[2], &effort = row[3];
         std::cout << "  " << by << ": " << outcome;
         if (!effort.empty()) std::cout << " (" << effort << ")";
-        std::cout << "; " << why << "\n";
+        std::cout << (why.empty() ? "\n" : "; " + why + "\n");
     }
 }
 

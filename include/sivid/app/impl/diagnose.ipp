@@ -384,7 +384,8 @@ private:
             return intersect(posed.prior, box);
         };
         auto first = std::make_shared<prior_contractor>("ranges of the diagnosis", within);
-        result.steps.insert(result.steps.begin(), {.by = {std::move(first)}});
+        auto const why = [](inquiry&) { return strategy::promise{true, "see diagnosis.json"}; };
+        result.steps.insert(result.steps.begin(), {.by = {std::move(first)}, .when = why});
         return result;
     }
 

@@ -117,31 +117,15 @@ public:
     [[nodiscard]] std::filesystem::path const& out() const { return out_; }
     /// What ranks must agree on. The data are read by who works on them: a fleet has many.
     [[nodiscard]] std::string asked() const { return name() + words(); }
-    /// Data and command: what a result is of. Reads the data.
-    [[nodiscard]] std::string key() const {
-        try {
-            return dataset_digest(dataset_) + words();
-        } catch (input_error const&) {
-            return "unreadable" + words(); // the command says why
-        }
-    }
-    [[nodiscard]] std::string words() const {
-        std::string text;
-        for (auto const* list : {&command_, &options_}) {
-            text += " |";
-            for (auto const& w : *list) text += " " + w;
-        }
-        return text;
-    }
 
     /// How the program ended on these data, with this command; nothing where it has not.
-    /// @param known  whether that is known of the note: the data are not read again
-    [[nodiscard]] std::optional<fleet_note> note(bool known) const {
+    /// Reads the data, where they were not read here before.
+    [[nodiscard]] std::optional<fleet_note> note() const {
         std::error_code fault;
         if (!std::filesystem::exists(note_file(), fault)) return std::nullopt;
         try {
             auto const j = read_json(note_file());
-            if (j.at("format").string() != format || !(known || j.at("of").raw_string() == key()))
+            if (j.at("format").string() != format || j.at("of").raw_string() != key())
                 return std::nullopt;
             return fleet_note{static_cast<int>(*nearest(j.at("code").number())),
                               *nearest(j.at("seconds").number())};
@@ -151,7 +135,7 @@ public:
     }
     /// Failures are tried again.
     [[nodiscard]] bool is_finished() const {
-        auto const n = note(false);
+        auto const n = note();
         return n && is_result(*n);
     }
     [[nodiscard]] static bool is_result(fleet_note const& n) {
@@ -161,6 +145,7 @@ public:
     /// Runs it. @returns  how it ended, in words
     [[nodiscard]] std::string run(std::function<bool()> const& wanted) const {
         stopwatch const clock;
+        auto const of = key();                // before the program reads them
         std::filesystem::remove(note_file()); // of before, whatever fails from here on
         prepare_folder(out_);
         auto words = command_;
@@ -176,7 +161,7 @@ public:
         if (code >= 1000) return "ended by signal " + std::to_string(code - 1000);
         if (stopped) return "stopped early";
         json_writer json;
-        json.begin_object().members("format", format, "of", key(), "code", code, "seconds", took);
+        json.begin_object().members("format", format, "of", of, "code", code, "seconds", took);
         json.end_object();
         write_durably(note_file(), json.text());
         return "ended with " + std::to_string(code) + " after " + text_of("%.3g s", took);
@@ -189,9 +174,29 @@ private:
         return (folder.filename().empty() ? folder.parent_path() : folder).filename().string();
     }
     [[nodiscard]] std::filesystem::path note_file() const { return out_ / "fleet.json"; }
+    /// Data and command: what a result is of.
+    [[nodiscard]] std::string key() const {
+        if (digest_.empty()) {
+            try {
+                digest_ = dataset_digest(dataset_);
+            } catch (input_error const&) {
+                digest_ = "unreadable"; // the command says why
+            }
+        }
+        return digest_ + words();
+    }
+    [[nodiscard]] std::string words() const {
+        std::string text;
+        for (auto const* list : {&command_, &options_}) {
+            text += " |";
+            for (auto const& w : *list) text += " " + w;
+        }
+        return text;
+    }
 
     std::filesystem::path dataset_, out_;
     std::vector<std::string> command_, options_;
+    mutable std::string digest_; ///< once it was asked for; one thread has a task at a time
 };
 
 /// The data sets in these folders, by their names; a folder without dataset.json stands for those
@@ -271,9 +276,9 @@ inline void fill_diagnosis(fleet_row& row, json_value const& j) {
     row.high = number_text(bounds.elements().at(1));
 }
 
-inline fleet_row row_of(fleet_task const& task, bool known) {
+inline fleet_row row_of(fleet_task const& task) {
     fleet_row row{task.name(), "missing", "no result yet"};
-    auto const note = task.note(known);
+    auto const note = task.note();
     if (!note) return row;
     row.note = *note;
     row.state = task.is_result(*note) ? "result" : "failed";
@@ -301,13 +306,12 @@ inline std::string in_csv(std::string const& text) {
 }
 
 /// Writes the summary of all data sets of the list, whoever worked on them, and prints it.
-/// @param known  of which the notes are known to be of these data and this command
 /// @returns an exit code
 /// @throws output_error
-inline int write_fleet_summary(std::vector<fleet_task> const& list, std::vector<bool> const& known,
+inline int write_fleet_summary(std::vector<fleet_task> const& list,
                                std::filesystem::path const& out) {
     std::vector<fleet_row> rows;
-    for (std::size_t k = 0; k < list.size(); ++k) rows.push_back(row_of(list[k], known[k]));
+    for (auto const& task : list) rows.push_back(row_of(task));
     std::string csv = "dataset,state,found,bounds_of,lower,upper,exit_code,seconds\n";
     json_writer json;
     json.begin_object().members("format", "sivid-fleet-summary-1").key("datasets").begin_array();
@@ -375,16 +379,13 @@ inline std::string digest_of(std::vector<fleet_task> const& list) {
 }
 
 /// Those of the list that the command is for and that have no result of it yet.
-/// @param known  those that have one are marked here
 inline std::vector<std::size_t> open_tasks(std::vector<fleet_task> const& list,
-                                           fleet_command const& c, std::vector<bool>& known,
-                                           progress_line& progress) {
+                                           fleet_command const& c, progress_line& progress) {
     std::vector<std::size_t> open;
     std::size_t finished = 0;
     for (std::size_t k = 0; k < list.size(); ++k) {
         if (c.task && k % c.task->second != c.task->first - 1) continue;
         if (!c.again && list[k].is_finished()) {
-            known[k] = true;
             ++finished;
         } else {
             open.push_back(k);
@@ -411,8 +412,7 @@ SIVID_DECL int run_fleet(fleet_command const& c) {
 #endif
     prepare_folder(c.out);
     progress_line progress(c.quiet);
-    std::vector<bool> known(list.size());
-    auto const open = detail::open_tasks(list, c, known, progress);
+    auto const open = detail::open_tasks(list, c, progress);
     // Threads of this process that start one process each, and the other ranks.
     cluster::memory_transport inside(c.jobs);
     cluster::transport* others = inside.of_first.get();
@@ -440,7 +440,6 @@ SIVID_DECL int run_fleet(fleet_command const& c) {
         how.ahead = 1; // a second one would wait for a long first one
         how.patience = 120;
         how.arrived = [&](std::size_t task, cluster::worker_pool::answer const& a) {
-            known[open[task]] = true;
             progress.note(std::to_string(++count) + " of " + std::to_string(open.size()) + ": " +
                           list[open[task]].name() + ": " + a.body);
         };
@@ -452,7 +451,7 @@ SIVID_DECL int run_fleet(fleet_command const& c) {
     }
     end_all();
     progress.finish();
-    return detail::write_fleet_summary(list, known, c.out);
+    return detail::write_fleet_summary(list, c.out);
 }
 
 } // namespace sivid::app

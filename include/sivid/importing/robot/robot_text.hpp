@@ -360,7 +360,7 @@ inline void add_limits(described_robot& r, double within) {
 /// that of those constants that cannot be told from them.
 /// @param within  the share of masses, of the centres' distances and of moments of inertia
 /// @guarantee  a robot whose constants are within that share has, with its other constants as
-///             described, values in the priors that move alike
+///             described, values in the priors that move alike (to rounding, as files are)
 [[nodiscard]] inline robot_text text_of_robot(described_robot r, double within) {
     importing_detail::add_limits(r, within);
     auto const base = base_parameters_of(r);
