@@ -110,15 +110,19 @@ inline std::vector<std::string> disturbance_words(identification_problem const& 
     };
     if (found.size.upper() == 0)
         return {"the model explains the data without disturbances (proved)"};
-    std::vector<std::string> words{
-        "least disturbance: " + to_decimal_lower(found.size.lower(), 4) + " to " +
-        (found.witness ? to_decimal_upper(found.size.upper(), 4) : "unknown") + " (proved), times"};
+    std::string sizes;
+    auto const add = [&](std::string const& name, double scale, std::string const& unit) {
+        auto const of = interval_traits<interval>::mul(interval(scale), found.size);
+        sizes += (sizes.empty() ? "" : ", ") + name + " " + to_decimal_lower(of.lower(), 4) +
+                 " to " + (found.witness ? to_decimal_upper(of.upper(), 4) : "unknown") + " " +
+                 unit;
+    };
     for (auto const& q : set.equations)
-        words[0] += " " + about.states[q.index].equation_name() + "=" + nearest_text(q.scale) +
-                    " " + rate_unit(about.states[q.index].unit, about.time_unit);
+        add(about.states[q.index].equation_name(), q.scale,
+            rate_unit(about.states[q.index].unit, about.time_unit));
     for (auto const& q : set.channels)
-        words[0] += " " + about.channels[q.index].name + "=" + nearest_text(q.scale) + " " +
-                    about.channels[q.index].unit;
+        add(about.channels[q.index].name, q.scale, about.channels[q.index].unit);
+    std::vector<std::string> words{"least disturbance: " + sizes + " (proved)"};
     for (auto const& s : found.needed)
         words.push_back("it is reached somewhere in " + stretch(s) + " (proved" +
                         (found.needed.size() > 1 ? ", of one of these)" : ")"));
