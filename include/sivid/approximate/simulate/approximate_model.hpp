@@ -3,6 +3,7 @@
 #define SIVID_APPROXIMATE_SIMULATE_APPROXIMATE_MODEL_HPP
 
 #include <sivid/approximate/simulate/approximate_program.hpp>
+#include <sivid/approximate/simulate/detail/held_signs.hpp>
 #include <sivid/approximate/simulate/late_signal.hpp>
 #include <sivid/measurement/dead_time.hpp>
 #include <sivid/model/bound_model.hpp>
@@ -69,7 +70,7 @@ public:
         }
         input_memory_ = memory_of(model, choice, model.input_memory, inputs);
         channel_delays_ = memory_of(model, choice, model.channel_delays, inputs);
-        auto prompt = model;
+        auto prompt = held_signs(model).result();
         prompt.input_memory.clear();
         prompt.channel_delays.clear();
         // A formula with a memory is no formula in t: it is kept as an input.

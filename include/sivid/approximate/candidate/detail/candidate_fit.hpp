@@ -61,6 +61,32 @@ inline void leave_corners(identification_problem const& problem, approximate_fit
     }
 }
 
+/// Where a fit of one candidate may begin that was found for another one.
+struct taken_over {
+    std::vector<double> parameters;
+    std::vector<std::vector<double>> starts;
+    std::vector<std::size_t> open; ///< parameters that the other candidate does not have; 0
+
+    /// @param base  the problem without effects
+    taken_over(identification_problem const& problem, identification_problem const& base,
+               screened const& other)
+        : parameters(problem.prior.size()), starts(other.fit.starts) {
+        auto const& names = other.problem.choice.unknown;
+        for (std::size_t j = 0; j < problem.prior.size(); ++j) {
+            auto const f = std::find(names.begin(), names.end(), problem.choice.unknown[j]);
+            if (f == names.end())
+                open.push_back(j);
+            else
+                parameters[j] = other.fit.parameters[static_cast<std::size_t>(f - names.begin())];
+        }
+        for (std::size_t e = 0; e < starts.size(); ++e) {
+            starts[e] = mid(problem.experiments[e].initial);
+            for (std::size_t i = 0; i < base.experiments[e].initial.size(); ++i)
+                starts[e][i] = other.fit.starts[e][i];
+        }
+    }
+};
+
 /// Points of a candidate: a grid over the parameters of its last effect, all others where a part
 /// of the candidate was fitted.
 class effect_grid {
@@ -69,35 +95,16 @@ public:
     /// @param known  the part that was fitted
     effect_grid(identification_problem const& problem, identification_problem const& base,
                 screened const& known)
-        : problem_(&problem), parameters_(problem.prior.size()), starts_(known.fit.starts) {
-        auto const first = base.prior.size();
-        std::copy(known.fit.parameters.begin(),
-                  known.fit.parameters.begin() + static_cast<std::ptrdiff_t>(first),
-                  parameters_.begin());
-        for (std::size_t j = first; j < problem.prior.size(); ++j) {
-            auto const& others = known.problem.choice.unknown;
-            auto const f = std::find(others.begin(), others.end(), problem.choice.unknown[j]);
-            if (f == others.end())
-                open_.push_back(j);
-            else
-                parameters_[j] = known.fit.parameters[static_cast<std::size_t>(f - others.begin())];
-        }
-        steps_ = open_.size() == 1 ? 9 : 4;
-        for (std::size_t k = 0; k < open_.size(); ++k) size_ *= steps_;
-        for (std::size_t e = 0; e < starts_.size(); ++e) {
-            starts_[e] = mid(problem.experiments[e].initial);
-            for (std::size_t i = 0; i < base.experiments[e].initial.size(); ++i) {
-                starts_[e][i] = known.fit.starts[e][i];
-            }
-        }
+        : problem_(&problem), from_(problem, base, known), steps_(from_.open.size() == 1 ? 9 : 4) {
+        for (std::size_t k = 0; k < from_.open.size(); ++k) size_ *= steps_;
     }
 
     [[nodiscard]] std::size_t size() const { return size_; }
     /// The same for all points.
-    [[nodiscard]] std::vector<std::vector<double>> const& starts() const { return starts_; }
+    [[nodiscard]] std::vector<std::vector<double>> const& starts() const { return from_.starts; }
     [[nodiscard]] std::vector<double> operator[](std::size_t n) const {
-        auto point = parameters_;
-        for (auto const j : open_) {
+        auto point = from_.parameters;
+        for (auto const j : from_.open) {
             double const share =
                 (static_cast<double>(n % steps_) + 0.5) / static_cast<double>(steps_);
             n /= steps_;
@@ -109,9 +116,7 @@ public:
 
 private:
     identification_problem const* problem_;
-    std::vector<double> parameters_;
-    std::vector<std::size_t> open_; ///< the parameters that the grid is over
-    std::vector<std::vector<double>> starts_;
+    taken_over from_;
     std::size_t steps_ = 1, size_ = 1;
 };
 
