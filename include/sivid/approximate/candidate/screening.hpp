@@ -83,12 +83,10 @@ public:
         try_all(singles());
         polish();
         if (!stopped_) try_all(pairs());
-        simplify();
         for (std::size_t size = 3; size <= options_.most_effects && !stopped_; ++size) {
             if (explained(size - 1)) break;
             join_one_more(size, most_joined);
-            simplify();
-        }
+            }
         polish();
         if (!stopped_ && !explained(catalogue_.size())) go_beyond();
     }
@@ -108,31 +106,6 @@ public:
             s.fit = std::move(better);
             s.figures.inflation = s.fit.inflation;
         });
-    }
-
-    /// Descends with a part of what explains from where that was found: the part's own descent may
-    /// have ended elsewhere (behind dry friction that lets nothing move, say).
-    void simplify() {
-        constexpr double much = 1.05; // closer than `polish` goes on from
-        for (std::size_t n = 0; n < tried_.size(); ++n) {
-            auto const whole = tried_[n].figures.effects;
-            if (whole.size() < 2 || !tried_[n].figures.explains()) continue;
-            for (auto& s : tried_) {
-                auto const& part = s.figures.effects;
-                bool const one_less =
-                    part.size() + 1 == whole.size() &&
-                    std::includes(whole.begin(), whole.end(), part.begin(), part.end());
-                if (!one_less || !(s.figures.inflation > much) || !in_time()) continue;
-                taken_over const from(s.problem, base_, tried_[n]);
-                auto other =
-                    approximate_fitter(away_from_zero(s.problem, base_.prior.size()), [this] {
-                        return in_time();
-                    })({from.parameters, from.starts});
-                if (!(other.inflation < s.figures.inflation)) continue;
-                s.fit = std::move(other);
-                take_figures(s);
-            }
-        }
     }
 
     /// Tries single effects (none: all of the plan) as such that act in these experiments only.

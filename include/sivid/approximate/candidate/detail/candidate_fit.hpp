@@ -114,6 +114,24 @@ public:
         return point;
     }
 
+    /// Where the effect hardly acts, so that the misfit of the part that was fitted has a slope.
+    [[nodiscard]] std::vector<double> beside_neutral() const {
+        constexpr double hardly = 0.01; // of the prior
+        auto point = from_.parameters;
+        auto const& constants = problem_->model.about.constants;
+        for (auto const j : from_.open) {
+            auto const& side = problem_->prior[j];
+            auto const named = std::find_if(constants.begin(), constants.end(), [&](auto const& c) {
+                return c.name == problem_->choice.unknown[j];
+            });
+            double const neutral = named == constants.end() ? 0 : named->nominal.nearest;
+            double const step = hardly * (side.upper() - side.lower());
+            point[j] = std::clamp(neutral + (mid(side) < neutral ? -step : step), side.lower(),
+                                  side.upper());
+        }
+        return point;
+    }
+
 private:
     identification_problem const* problem_;
     taken_over from_;
@@ -188,6 +206,8 @@ struct grid_starts {
     if (!from.awake.empty() && from.awake != from.best) keep_better(found, descend({from.awake}));
     constexpr double promising = 3; // of more effects than one
     if (found.inflation > 1 && (effects == 1 || found.inflation < promising)) {
+        // The best of the grid may lie in another valley: behind friction that lets nothing move.
+        keep_better(found, descend({grid.beside_neutral(), grid.starts()}));
         // What sits at the end of its prior may be stuck there.
         auto const freed = away_from_ends(problem.prior, found.parameters);
         if (freed != found.parameters) keep_better(found, descend({freed}));

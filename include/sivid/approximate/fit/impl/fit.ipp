@@ -221,8 +221,10 @@ private:
     }
 
     [[nodiscard]] approximate_fit finished(descent_point here) {
+        // The steps towards the largest may go on from where those of the squares have ended badly.
+        double const squares = std::min(squares_, squares_of(here));
         auto result = fit_at(campaign_, std::move(here));
-        result.squares = squares_;
+        result.squares = squares;
         return result;
     }
 
