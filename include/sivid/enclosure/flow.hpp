@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -73,6 +74,13 @@ public:
     [[nodiscard]] std::vector<std::size_t> const& uncertain_inputs() const {
         return model_.uncertain;
     }
+    /// The flow while a state sticks at 0 by its sign: its outputs are conditions
+    /// (`resting_models`). None where inputs have error bounds.
+    struct resting {
+        std::size_t state = 0;
+        std::shared_ptr<flow const> equations;
+    };
+    [[nodiscard]] std::vector<resting> const& at_rest() const { return at_rest_; }
     /// First knot of a sampled input strictly after t, or +infinity.
     [[nodiscard]] double next_knot(double t) const {
         double next = HUGE_VAL;
@@ -81,6 +89,10 @@ public:
     }
 
 private:
+    /// While so many states stick.
+    flow(recorded_model const& model, parameter_choice const& choice,
+         std::vector<signal> const& inputs, std::optional<region_of_runs> const& runs,
+         std::size_t resting);
     [[nodiscard]] tape with_jacobian(std::vector<node_id> const& values,
                                      std::vector<std::vector<node_id>> const& dx,
                                      std::vector<std::vector<node_id>> const& dp,
@@ -129,6 +141,7 @@ private:
     tape rate_, rate_jacobian_, rate_state_jacobian_, observe_, observe_jacobian_;
     std::vector<jacobian_entry> entries_, observe_entries_;
     std::vector<bool> sensitive_;
+    std::vector<resting> at_rest_;
 };
 
 } // namespace sivid

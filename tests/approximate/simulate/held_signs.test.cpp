@@ -76,7 +76,7 @@ TEST_CASE("a model without jumps of its states stays what it is") {
         support::model_of({1, 1, 1}, [](auto const&, auto const& x, auto const& p, auto const& u) {
             return std::vector{abs(x[0]) * p[0] + sign(u[0])};
         });
-    auto const same = held_signs(model).result();
+    auto const same = with_held_signs(model);
     CHECK(same.g.size() == model.g.size());
     CHECK(same.rate == model.rate);
 }

@@ -70,7 +70,7 @@ public:
         }
         input_memory_ = memory_of(model, choice, model.input_memory, inputs);
         channel_delays_ = memory_of(model, choice, model.channel_delays, inputs);
-        auto prompt = held_signs(model).result();
+        auto prompt = with_held_signs(model);
         prompt.input_memory.clear();
         prompt.channel_delays.clear();
         // A formula with a memory is no formula in t: it is kept as an input.

@@ -4,10 +4,17 @@
 
 #include <sivid/enclosure/flow.hpp>
 
+#include <sivid/model/change/detail/resting_models.hpp>
+
 namespace sivid {
 
 SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choice,
                       std::vector<signal> const& inputs, std::optional<region_of_runs> const& runs)
+    : flow(model, choice, inputs, runs, 0) {}
+
+SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choice,
+                      std::vector<signal> const& inputs, std::optional<region_of_runs> const& runs,
+                      std::size_t resting)
     : model_(bind(model, choice, inputs, runs)), signals_(inputs.size()) {
     for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
     rate_ = tape(model_.g, model_.rate);
@@ -18,6 +25,11 @@ SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choic
     observe_jacobian_ =
         with_jacobian(model_.observe, model_.observe_dx, model_.observe_dp, observe_entries_);
     find_structure();
+    constexpr std::size_t most = 2; // that stick at once: each is a flow of its own
+    if (uncertain() || resting == most) return;
+    for (auto const& r : resting_models(model, resting))
+        at_rest_.push_back({r.state, std::shared_ptr<flow const>(new flow(
+                                         r.model, choice, inputs, std::nullopt, resting + 1))});
 }
 
 } // namespace sivid

@@ -203,6 +203,35 @@ struct parametric_set {
             largest[i] = side_by_side::max(largest[i], centre[i].norm() + reach[i]);
     }
 
+    /// Some lanes of another set; each keeps generators of its own.
+    void take(mask lanes, parametric_set const& from) {
+        auto const all = std::max(columns.size(), from.columns.size());
+        if (all > columns.size()) groups_.push_back({1, all - columns.size()});
+        columns.resize(all, column(centre.size()));
+        time = side_by_side::select(lanes, from.time, time);
+        for (std::size_t i = 0; i < centre.size(); ++i) {
+            centre[i] = select(lanes, from.centre[i], centre[i]);
+            tail[i] = side_by_side::select(lanes, from.tail[i], tail[i]);
+            reach[i] = side_by_side::select(lanes, from.reach[i], reach[i]);
+            largest[i] = side_by_side::select(lanes, from.largest[i], largest[i]);
+            for (std::size_t j = 0; j < all; ++j) {
+                auto const other = j < from.columns.size() ? from.columns[j][i] : Model();
+                columns[j][i] = select(lanes, other, columns[j][i]);
+            }
+        }
+    }
+    /// State i is 0 in these lanes.
+    void rest(mask lanes, std::size_t i) {
+        centre[i] = select(lanes, Model::constant(C(0.0)), centre[i]);
+        for (auto& g : columns) g[i] = select(lanes, Model::constant(C(0.0)), g[i]);
+        tail[i] = side_by_side::select(lanes, C(0.0), tail[i]);
+        reach[i] = side_by_side::select(lanes, C(0.0), reach[i]);
+    }
+    /// Whether state i is 0, exactly and whatever the unknowns.
+    [[nodiscard]] mask rests(std::size_t i) const {
+        return centre[i].norm() + reach[i] == C(0.0);
+    }
+
     /// A box that contains the set.
     [[nodiscard]] box hull(std::size_t lane = 0) const {
         using traits = interval_traits<interval>;

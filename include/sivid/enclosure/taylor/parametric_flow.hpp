@@ -83,9 +83,10 @@ parametric_flow<Model>::short_enough(mask trying, C const& h, std::size_t order,
     C const least = each_lane<C>([&](std::size_t l) {
         return 4 * (lanes_[l].root ? enclosure_detail::step_off_root(options_) : shortest(l));
     });
-    mask const enough =
-        order > 0 ? (h <= least) & !forced
-                  : (h <= least) | (resting & (h <= C(enclosure_detail::resting_step(options_))));
+    mask const enough = order > 0
+                            ? (h <= least) & !forced
+                            : landing_ | (h <= least) |
+                                  (resting & (h <= C(enclosure_detail::resting_step(options_))));
     mask const too_long = trying & !(ratio <= C(1.0)) & !enough;
     if (side_by_side::any(too_long)) {
         auto const shorten = each_lane<C>([&](std::size_t l) {
@@ -488,6 +489,8 @@ void parametric_flow<Model>::accept(trial const& t) {
     auto const n = flow_->states();
     mask const moved = t.lanes;
     C const length = t.to - set_.time; // off by less than a unit
+    std::vector<mask> at_rest;
+    for (auto& s : sticking_) at_rest.push_back(t.smooth() ? mask{} : stops(s, t));
     auto end = centre_at_end(t, length);
     auto const added = added_by_last_variation(t, length);
     if (!side_by_side::all(t.jumps | !moved)) carry_generators(t, length, end.lost);
@@ -506,6 +509,7 @@ void parametric_flow<Model>::accept(trial const& t) {
     set_.reduce(most_columns(n), end.lost, running_);
     set_.append(end.lost);
     set_.measure();
+    for (std::size_t k = 0; k < at_rest.size(); ++k) set_.rest(at_rest[k], sticking_[k].state);
     adapt_flow_order(moved, t.order, t.flow_order, added);
     if (t.smooth()) adapt_order(moved, length, clamped);
     for (std::size_t i = 0; i < n && perturbed_; ++i) {
@@ -642,6 +646,184 @@ void parametric_flow<Model>::add_perturbation(trial const& t, C const& length,
     for (std::size_t i = 0; i < n; ++i) {
         disturbed_[i] = side_by_side::select(t.lanes, carried[i], disturbed_[i]);
     }
+}
+
+template <class Model>
+typename parametric_flow<Model>::mask
+parametric_flow<Model>::stays(C const& from, C const& h, std::vector<tube_entry> const& tube,
+                              C& share, C& strength) {
+    if (!conditions_) conditions_.emplace(flow_->observe(), 0, *tube_shape_);
+    conditions_->set_parameters(tube_parameters_);
+    auto const t = tube_entry::constant(from) + within_step(h);
+    conditions_->evaluate(t, tube, input_pieces<tube_entry>(*flow_, from, t));
+    mask good = !conditions_->undefined();
+    share = C(0.0);
+    strength = C(infinity);
+    for (std::size_t k = 0; k + 1 < flow_->channels(); k += 2) {
+        auto const q = rough_bounds(conditions_->output(k, 0));
+        auto const b = rough_bounds(conditions_->output(k + 1, 0));
+        share = side_by_side::max(share, side_by_side::max(q.upper, -q.lower));
+        strength = side_by_side::min(strength, b.lower);
+        good = good & (q.upper < C(1.0)) & (q.lower > C(-1.0)) & (b.lower > C(0.0));
+    }
+    return good;
+}
+
+template <class Model>
+parametric_flow<Model>& parametric_flow<Model>::at_rest(sticking& s, mask lanes) {
+    if (!s.run) {
+        s.run = std::make_unique<parametric_flow>(*s.equations, options_, shape_->variables,
+                                                  shape_->degree);
+    }
+    auto& run = *s.run;
+    if (run.known_ != begun_) {
+        run.parameters_ = parameters_;
+        run.column_parameters_ = column_parameters_;
+        run.tube_parameters_ = tube_parameters_;
+        run.centre_.set_parameters(parameters_);
+        run.derivative_.set_parameters(column_parameters_);
+        run.tube_.set_parameters(tube_parameters_);
+        run.known_ = begun_;
+        run.sharp_ready_ = false;
+        ++run.begun_;
+        run.running_ = mask{};
+    }
+    mask goes_on = run.running_; // with a shorter step
+    for (std::size_t l = 0; l < width; ++l) {
+        if (run.lanes_[l].attempts == 0) goes_on = goes_on & !side_by_side::only(l);
+    }
+    if (side_by_side::all(goes_on | !lanes) && side_by_side::all(lanes | !run.running_)) return run;
+    for (std::size_t l = 0; l < width; ++l) {
+        if (!side_by_side::test(lanes & !goes_on, l)) continue;
+        auto& lane = run.lanes_[l];
+        auto const learned = lane.learned;
+        lane = lane_state{};
+        lane.learned = learned;
+        lane.unknowns = lanes_[l].unknowns;
+    }
+    run.set_ = set_;
+    run.running_ = lanes;
+    run.stale_ = true;
+    return run;
+}
+
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::stick(mask able, C const& limit,
+                                                                    mask& moved) {
+    mask tried{};
+    for (auto& s : sticking_) {
+        mask const resting = able & !tried & set_.rests(s.state) & (set_.time >= s.until);
+        if (!side_by_side::any(resting)) continue;
+        auto& run = at_rest(s, resting);
+        C const from = set_.time;
+        C const end = side_by_side::min(limit, from + s.most);
+        mask const went = run.advance(end) & resting;
+        C const h = (run.set_.time - from) * (1 + 4 * polynomial::unit);
+        C share{}, strength{};
+        mask good = went & run.by_rest_;
+        if (side_by_side::any(went & !good))
+            good = good | (went & run.stays(from, h, run.swept_, share, strength));
+        set_.take(good, run.set_);
+        set_.rest(good, s.state);
+        for (std::size_t i = 0; i < swept_.size(); ++i)
+            swept_[i] = select(good, run.swept_[i], swept_[i]);
+        for (std::size_t l = 0; l < width; ++l) {
+            if (!side_by_side::test(resting, l)) continue;
+            if (side_by_side::test(good, l)) {
+                auto& lane = lanes_[l];
+                lane.attempts = lane.crossing = 0;
+                lane.rough = false;
+                lane.near = infinity;
+                ++lane.steps;
+                side_by_side::put(s.most, l, infinity);
+                continue;
+            }
+            bool const ended = run.lanes_[l].failure.has_value();
+            if (!ended && !side_by_side::test(went, l)) continue; // tries a shorter step
+            double const start = side_by_side::get(from, l);
+            double const half = 0.25 * side_by_side::get(h, l);
+            if (ended || !(half > 64 * options_.shortest_step())) {
+                side_by_side::put(s.until, l,
+                                  std::min(side_by_side::get(limit, l), flow_->next_knot(start)));
+                side_by_side::put(s.most, l, infinity);
+                run.lanes_[l] = lane_state{};
+            } else {
+                side_by_side::put(s.most, l, half);
+            }
+        }
+        stale_ = stale_ || side_by_side::any(good);
+        by_rest_ = by_rest_ | good;
+        moved = moved | good;
+        tried = tried | (resting & !(set_.time < s.until));
+    }
+    return tried;
+}
+
+/// While |a/b| <= m < 1 and b >= c > 0 on the tube, |y| falls at the rate (1 - m) c until y is 0,
+/// and stays there (see `resting_models`).
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::stops(sticking& s, trial const& t) {
+    C const far = set_.centre[s.state].norm() + set_.reach[s.state];
+    C const length = (t.to - set_.time) * (1 - 1e-9);
+    mask const near = t.lanes & (far > C(0.0));
+    if (!side_by_side::any(near)) return mask{};
+    C share{}, strength{};
+    mask const falls = at_rest(s, near).stays(set_.time, t.h, tube_box_, share, strength);
+    return near & falls & (far <= (C(1.0) - share) * strength * length);
+}
+
+/// Where 0 lies within about what the set spans: when it comes to rest is not known better, and
+/// shorter steps would lose more.
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::land(mask able, C const& limit) {
+    mask rough{}, landed{};
+    for (std::size_t l = 0; l < width; ++l) {
+        if (lanes_[l].rough) rough = rough | side_by_side::only(l);
+    }
+    for (auto& s : sticking_) {
+        auto const range = rough_bounds(set_.centre[s.state]);
+        C const reach = set_.reach[s.state];
+        C const far = side_by_side::max(range.upper, -range.lower) + reach;
+        C const across = (range.upper - range.lower) + reach * 2.0;
+        mask const near = able & rough & !landed & (far > C(0.0)) & (far <= across * 3.0);
+        if (!side_by_side::any(near)) continue;
+        std::vector<tube_entry> here;
+        for (std::size_t i = 0; i < set_.centre.size(); ++i) {
+            auto const x = rough_bounds(set_.centre[i]);
+            here.push_back(held_side::between(x.lower - set_.reach[i], x.upper + set_.reach[i]));
+        }
+        C share{}, strength{};
+        mask lanes = near & at_rest(s, near).stays(set_.time, C(0.0), here, share, strength);
+        C const takes = far / ((C(1.0) - share) * strength) * 1.1;
+        trial t{lanes, 0, 1};
+        t.to = set_.time + takes;
+        for (std::size_t l = 0; l < width; ++l) {
+            double const from = time(l), to = side_by_side::get(t.to, l);
+            bool const fits =
+                to > from && to <= side_by_side::get(limit, l) && to <= flow_->next_knot(from);
+            if (!fits) t.lanes = t.lanes & !side_by_side::only(l);
+        }
+        if (!side_by_side::any(t.lanes)) continue;
+        if (stale_ || smooth_) expand(0);
+        if (expanded_ != 1) expand_flow(1);
+        auto const lanes_before = lanes_;
+        landing_ = t.lanes;
+        t.lanes = attempt(t);
+        landing_ = mask{};
+        lanes_ = lanes_before;
+        t.lanes = t.lanes & stops(s, t);
+        if (!side_by_side::any(t.lanes)) continue;
+        accept(t);
+        landed = landed | t.lanes;
+        for (std::size_t l = 0; l < width; ++l) {
+            if (!side_by_side::test(t.lanes, l)) continue;
+            auto& lane = lanes_[l];
+            lane.attempts = lane.crossing = 0;
+            lane.rough = false;
+            ++lane.steps;
+        }
+    }
+    return landed;
 }
 
 /// Whether in no lane the tolerance alone has limited the step.

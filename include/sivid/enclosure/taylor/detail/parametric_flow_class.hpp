@@ -29,6 +29,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -109,6 +110,8 @@ public:
             throw std::invalid_argument("enclosure_options: order must be at least 1");
         if (f.uncertain()) perturbed_.emplace(f, *column_shape_);
         disturbed_.resize(f.states());
+        for (auto const& r : f.at_rest())
+            sticking_.push_back({r.state, r.equations.get(), nullptr});
     }
 
     /// Starts the family of one lane; what the other lanes do goes on.
@@ -221,6 +224,15 @@ private:
 
     struct held_side;
 
+    /// A state that may stick at 0, and the flow while it does.
+    struct sticking {
+        std::size_t state;
+        flow const* equations;
+        std::unique_ptr<parametric_flow> run; ///< made when it is needed
+        C most = C(infinity);                 ///< the longest step to try
+        C until{};                            ///< not before that time: it does not stick
+    };
+
     /// A step that lanes try together.
     struct trial {
         mask lanes;             ///< in which it may still be proved; in the end, is proved
@@ -270,6 +282,20 @@ private:
         return enclosure_detail::shortest_step(
             options_, l.cut && l.crossing < enclosure_detail::crossing_steps);
     }
+    /// The run of a flow at rest, with what it has to know of the families in these lanes.
+    parametric_flow& at_rest(sticking& s, mask lanes);
+    /// A step of lanes in which a state sticks at 0, by the flow at rest.
+    /// @param moved  receives the lanes that moved
+    /// @returns      the lanes that tried
+    [[nodiscard]] mask stick(mask able, C const& limit, mask& moved);
+    /// Where what a flow at rest rests on holds, on a tube from `from` over h.
+    [[nodiscard]] mask stays(C const& from, C const& h, std::vector<tube_entry> const& tube,
+                             C& share, C& strength);
+    /// Lanes of a step of first order, not yet accepted, by whose end the state has come to rest.
+    [[nodiscard]] mask stops(sticking& s, trial const& t);
+    /// A step in lanes at a kink that brings the state to rest, as long as that takes.
+    [[nodiscard]] mask land(mask able, C const& limit);
+    [[nodiscard]] mask advance_by_series(mask able, C const& limit);
     void end_worn_lanes(C const& limit);
     [[nodiscard]] trial begin_trial(mask able);
     void end_undefined_lanes(trial& t);
@@ -380,6 +406,12 @@ private:
     std::vector<column_entry> image_; ///< of a generator; its memory is used again
     std::vector<tube_entry> path_, tube_box_, swept_;
     std::vector<C> room_, truncation_;
+    std::vector<sticking> sticking_;
+    std::optional<series<tube_entry>> conditions_; ///< of a flow at rest
+    mask by_rest_{};                               ///< whose last step was one at rest
+    mask landing_{}; ///< whose step is as long as it takes to come to rest
+    std::size_t begun_ = 0,
+                known_ = 0;        ///< families begun; those whose parameters a run at rest has
     std::vector<held_state> held_; ///< of the last step of first order; else empty
     bool tails_ = false;           ///< the last attempt was proved by the tails of the series alone
     C ratio_{};                    ///< of the last attempt's truncation to what is allowed
@@ -439,6 +471,11 @@ void parametric_flow<Model>::begin(std::size_t lane, double time, box const& ini
     sharp_pays_ = true;
     lanes_[lane] = lane_state{};
     lanes_[lane].unknowns.emplace(std::move(unknowns));
+    ++begun_;
+    for (auto& s : sticking_) {
+        side_by_side::put(s.most, lane, infinity);
+        side_by_side::put(s.until, lane, -infinity);
+    }
     running_ = running_ | side_by_side::only(lane);
     stale_ = true;
 }
@@ -622,8 +659,21 @@ std::optional<domain_edge> parametric_flow<Model>::edge(std::size_t lane, Entry 
 template <class Model>
 typename parametric_flow<Model>::mask parametric_flow<Model>::advance(C const& limit) {
     end_worn_lanes(limit);
-    mask const able = useful(running_ & (set_.time < limit));
-    if (!side_by_side::any(able)) return mask{};
+    mask able = running_ & (set_.time < limit), moved{};
+    by_rest_ = mask{};
+    if (!sticking_.empty()) {
+        able = able & !stick(able, limit, moved);
+        mask const landed = land(able, limit);
+        able = able & !landed;
+        moved = moved | landed;
+    }
+    able = useful(able);
+    return side_by_side::any(able) ? moved | advance_by_series(able, limit) : moved;
+}
+
+template <class Model>
+typename parametric_flow<Model>::mask parametric_flow<Model>::advance_by_series(mask able,
+                                                                                C const& limit) {
     auto t = begin_trial(able);
     if (stale_ || t.smooth() != smooth_) expand(t.order);
     if (expanded_ != t.flow_order) expand_flow(t.flow_order);

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_MODEL_CHANGE_DETAIL_RESTING_MODELS_HPP
+#define SIVID_MODEL_CHANGE_DETAIL_RESTING_MODELS_HPP
+
+#include <sivid/model/change/detail/freed_signs.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// A model while one of its states sticks at 0.
+struct resting_model {
+    std::size_t state = 0; ///< which
+    recorded_model model;  ///< its outputs are conditions, in pairs: the quotient a/b, and b
+};
+
+/// For each state y whose sign stands in the model, with every rate affine in that sign and
+/// \f$ y' = a - b\, \mathrm{sign}(y) \f$: the model with y' = 0 and a/b in place of the sign.
+///   Theorem: while a solution of the model begins with y = 0 and, on a tube about the solution of
+/// the resting model, \f$ |a/b| < 1 \f$ and b > 0, the two are the same. For as long as y is 0, a
+/// sign that makes y' = 0 is a/b (the only one, as b > 0), and what y stands in of the other rates
+/// is equal; and y cannot leave 0, since beside it y' = a - b < 0 above and a + b > 0 below.
+/// Other signs are what they were; where their arguments may be 0 on the tube, the conditions
+/// hold for all their values.
+/// @param resting  of how many states the model is one already: its outputs are kept as conditions
+/// @cost  O(signs * nodes)
+/// @ref   Filippov 1988 (sliding motions)
+[[nodiscard]] inline std::vector<resting_model> resting_models(recorded_model const& model,
+                                                               std::size_t resting = 0) {
+    std::vector<resting_model> result;
+    freed_signs freed(model);
+    auto const signs = freed.signs();
+    auto const n = model.rate.size();
+    auto const nested = [&](node_id i) {
+        for (std::size_t j = 0; j < signs.size(); ++j)
+            if (freed.made_of(i, j)) return true;
+        return false;
+    };
+    for (auto const& s : signs)
+        if (nested(s.argument)) return result;
+    for (std::size_t k = 0; k < signs.size(); ++k) {
+        auto const y = freed.nodes()[signs[k].argument];
+        if (y.op != operation::state) continue;
+        auto const i = static_cast<std::size_t>(y.index);
+        auto const rates = std::vector<node_id>(
+            freed.outputs().begin(), freed.outputs().begin() + static_cast<std::ptrdiff_t>(n));
+        auto const slopes = freed.slopes(rates, signs[k]);
+        if (std::any_of(slopes.begin(), slopes.end(),
+                        [&](node_id x) { return freed.made_of(x, k); }))
+            continue;
+        graph to;
+        std::vector<node_id> value(signs.size());
+        auto const copy = [&](std::vector<node_id> const& nodes) {
+            return freed.copy(to, nodes, [&](std::size_t j, graph&) { return value[j]; });
+        };
+        value[k] = to.constant(0.0);
+        for (std::size_t j = 0; j < signs.size(); ++j)
+            if (j != k) value[j] = to.unary(operation::sign, copy({signs[j].argument})[0]);
+        auto const a = copy({rates[i]})[0], b = to.neg(copy({slopes[i]})[0]);
+        value[k] = to.div(a, b);
+        auto all = copy(rates);
+        all[i] = to.constant(0.0);
+        std::vector<node_id> conditions;
+        if (resting > 0) {
+            conditions = copy(
+                {freed.outputs().begin() + static_cast<std::ptrdiff_t>(n), freed.outputs().end()});
+        }
+        conditions.push_back(value[k]);
+        conditions.push_back(b);
+        auto changed = with_equations(model, std::move(to), all, conditions);
+        changed.about.channels.assign(conditions.size(), {"condition", ""});
+        changed.channel_delays.clear();
+        result.push_back({i, std::move(changed)});
+    }
+    return result;
+}
+
+} // namespace sivid
+
+#endif
