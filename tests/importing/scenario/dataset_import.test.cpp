@@ -301,7 +301,7 @@ TEST_CASE("the servo's mappings: logs of their form become windows that hold the
             double const begin = std::stod(r.protocol.scenarios[i].begin);
             auto const& w = s.initial.at(*index_of(r.names.states, "w"));
             CHECK(contains(w.range, 2 * std::cos(4 * begin)));
-            CHECK(width(w.range) < 0.45);
+            CHECK(width(w.range) < 0.6);
             for (auto const& m : s.measurements)
                 CHECK(contains(m.bound, 0.5 * std::sin(4 * (m.time + begin))));
         }

@@ -180,6 +180,9 @@ TEST_CASE("a servo's log: bounds and starts of windows hold what was planted") {
     CHECK(widest < 0.5);
     CHECK_THAT(refusal(with(R"({ "rate_of": "h", "jerk": 0.1, "within": 0.25 })", clock), text),
                ContainsSubstring("within their error bounds and the jerk"));
+    auto const wild = replaced(with(R"({ "rate_of": "h", "jerk": 27.1 })", clock),
+                               "\"max_outlier_fraction\": 0", "\"max_outlier_fraction\": 0.1");
+    CHECK_THAT(refusal(wild, text), ContainsSubstring("some may be outliers"));
     auto back = text;
     back.replace(back.find("\n", 200) + 1, 0, "1,1,0\n"); // a clock that runs backwards
     CHECK_THAT(refusal(with(R"({ "rate_of": "h", "jerk": 27.1 })", clock), back),
