@@ -239,3 +239,32 @@ TEST_CASE("diagnosis words: shares no finer than a reader wants") {
     CHECK(shrink_text({0, 0.0004}) == "0 to 0.1\xC2\xA0%");
     CHECK(shrink_text({0.4931, 0.4939}) == "49.3 to 49.4\xC2\xA0%");
 }
+
+TEST_CASE("diagnosis words: a ladder of bounds, each rung below those with as few effects") {
+    diagnosis_view v;
+    CHECK(ladder_clauses(v).empty());
+    v.remainder.emplace();
+    v.inflation = sivid::interval{2.5, 7.001};
+    auto const add = [&](std::vector<std::string> effects, double from, double to) {
+        v.causes.emplace_back();
+        v.causes.back().effects = std::move(effects);
+        v.causes.back().inflation = sivid::interval{from, to};
+    };
+    add({"lag", "drag"}, 0, 3.5);
+    add({"drag"}, 0, 7.5);      // no better than none
+    add({"lag"}, 1.25, 3);      // as good as with drag
+    add({"wind"}, 9, infinity); // not known to explain
+    add({"lag", "wind"}, 0, 0.5);
+    auto const rungs = ladder_clauses(v);
+    REQUIRE(rungs.size() == 3);
+    CHECK(rungs[0] == "as it is the model explains the data from 7.01 times the stated bounds on, "
+                      "and is refuted below 2.50 times (proved)");
+    CHECK(rungs[1] == "with lag it explains the data from 3.00 times the stated bounds on, and is "
+                      "refuted below 1.25 times (proved)");
+    CHECK(rungs[2] == "with lag + wind it explains the data from 0.500 times the stated bounds on "
+                      "(proved)");
+    v.inflation = sivid::interval{2.5, infinity};
+    CHECK(ladder_clauses(v)[0] ==
+          "as it is the model is refuted below 2.50 times the stated bounds "
+          "(proved)");
+}

@@ -7,6 +7,7 @@
 
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -45,6 +46,28 @@ std::vector<std::vector<double>> outputs(identification_problem const& p,
 }
 
 } // namespace
+
+TEST_CASE("on a stiff spring the servo's pendulum moves as without one") {
+    auto const rigid = read_model(SIVID_SOURCE_DIR "/examples/servo/servo.toml");
+    auto const elastic = read_model(SIVID_SOURCE_DIR "/examples/servo/elastic.toml");
+    CHECK(elastic.effects.size() == 2);
+    auto e = swing();
+    identification_problem const plain{rigid.model, {{"rotor"}, {}}, {interval(0, 0.01)}, {e}};
+    e.initial = {interval(0.3), interval(0), interval(0), interval(0)};
+    auto const with = [&](double stiffness) {
+        identification_problem const p{elastic.model,
+                                       {{"rotor", "stiffness"}, {}},
+                                       {interval(0, 0.01), interval(1, 1e4)},
+                                       {e}};
+        double most = 0;
+        auto const a = outputs(plain, {0.002}), b = outputs(p, {0.002, stiffness});
+        for (std::size_t k = 0; k < a.size(); ++k)
+            most = std::max(most, std::abs(a[k][0] - b[k][0]));
+        return most;
+    };
+    CHECK(with(3) > 0.05);
+    CHECK(with(3000) < 0.005);
+}
 
 TEST_CASE("each effect of an actuator is found again where it was planted") {
     auto const text = read_model(SIVID_SOURCE_DIR "/examples/servo/servo.toml");

@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// The sentences of a diagnosis's page. What is proved is called so; all else is called an
@@ -431,6 +432,44 @@ inline std::vector<std::string> disturbance_clauses(diagnosis const& d) {
     if (d.remainder)
         for (auto const& n : d.remainder->disturbances)
             all.push_back(disturbance_clause(n, d.time_unit));
+    return all;
+}
+
+/// With which factor on all bounds each model explains the data, and below which it is refuted, one
+/// model a clause: the model as it is, then those that explain with smaller ones, fewest effects
+/// first. Proved; empty where something explains them with the stated bounds.
+inline std::vector<std::string> ladder_clauses(diagnosis const& d) {
+    constexpr std::size_t most = 6;
+    std::vector<std::string> all;
+    if (!d.remainder) return all;
+    auto const add = [&](std::string const& name, inflation_range const& r) {
+        bool const explains = std::isfinite(r.upper()), refuted = r.lower() > 0;
+        if (!explains && !refuted) return;
+        all.push_back(name +
+                      (explains
+                           ? " explains the data from " + rounded_text(r.upper(), rounding::up) +
+                                 " times the stated bounds on"
+                           : std::string{}) +
+                      (explains && refuted ? ", and" : "") +
+                      (refuted ? " is refuted below " + rounded_text(r.lower(), rounding::down) +
+                                     " times" + (explains ? "" : " the stated bounds")
+                               : std::string{}) +
+                      " (proved)");
+    };
+    add("as it is the model", d.inflation);
+    std::vector<cause const*> rungs;
+    for (auto const& c : d.causes)
+        if (!c.effects.empty() && std::isfinite(c.inflation.upper())) rungs.push_back(&c);
+    std::stable_sort(rungs.begin(), rungs.end(), [](auto const* a, auto const* b) {
+        return std::pair{a->effects.size(), a->inflation.upper()} <
+               std::pair{b->effects.size(), b->inflation.upper()};
+    });
+    double least = d.inflation.upper();
+    for (auto const* c : rungs) {
+        if (!(c->inflation.upper() < least) || all.size() == most) continue;
+        least = c->inflation.upper();
+        add("with " + names_of(c->effects) + " it", c->inflation);
+    }
     return all;
 }
 

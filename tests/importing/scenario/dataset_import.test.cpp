@@ -266,3 +266,44 @@ TEST_CASE("measured machines: bounds as their descriptions say") {
     CHECK(q.bound < 0.2);
     CHECK(tanks.data.scenarios[0].measurements.size() == 1024);
 }
+
+TEST_CASE("the servo's mappings: logs of their form become windows that hold the motion") {
+    // q = 0.5 sin(4 t) in counts of 2 pi/4096, each read up to 0.49 ms beside its time.
+    std::mt19937_64 random{17};
+    std::uniform_real_distribution<double> unit{-1, 1};
+    temporary_folder const folder;
+    for (std::string const kp : {"100", "200", "800"})
+        for (std::string const what :
+             {"lift_and_drop", "up_and_down", "sin_sin", "sin_time_square"}) {
+            std::string text = "time_s,goal_rad,position_rad,speed_rad_s,duty,supply_V,torque_on\n";
+            bool const lift = what == "lift_and_drop";
+            for (double t = 0.0036; t < 6; t += lift && t > 2 ? 0.0035 : 0.0054) {
+                double const count = std::acos(-1.0) / 2048;
+                double const q = 0.5 * std::sin(4 * (t - 0.0036 + 0.00049 * unit(random)));
+                text += exact_decimal::rounded(t, 9).text() + ",0," +
+                        exact_decimal::shortest(std::round(q / count) * count).text() +
+                        (lift && t > 2 ? ",0,0,7.3,0\n" : ",0,0.1,7.3,1\n");
+            }
+            folder.write("kp" + kp + "_" + what + ".csv", text);
+        }
+    for (auto const& [file, windows] : {std::pair{"released", 3u},
+                                        {"swinging", 8u},
+                                        {"driven", 12u},
+                                        {"elastic_off", 11u},
+                                        {"elastic_all", 23u}}) {
+        auto const mapping = read_text(std::filesystem::path{SIVID_SOURCE_DIR} / "examples/servo" /
+                                       (std::string{file} + ".json"));
+        folder.write("mapping.json", mapping);
+        auto const r = import_in(folder);
+        REQUIRE(r.data.scenarios.size() == windows);
+        for (std::size_t i = 0; i < windows; ++i) {
+            auto const& s = r.data.scenarios[i];
+            double const begin = std::stod(r.protocol.scenarios[i].begin);
+            auto const& w = s.initial.at(*index_of(r.names.states, "w"));
+            CHECK(contains(w.range, 2 * std::cos(4 * begin)));
+            CHECK(width(w.range) < 0.6);
+            for (auto const& m : s.measurements)
+                CHECK(contains(m.bound, 0.5 * std::sin(4 * (m.time + begin))));
+        }
+    }
+}

@@ -224,7 +224,8 @@ inline void print_summary(diagnosis const& d, std::string const& id,
                                                    : "with " + joined(d.remainder->effects, " + "))
                   << ", inflation " << report::inflation_text(d.remainder->inflation) << "\n";
     }
-    for (auto const& words : report::disturbance_clauses(d)) std::cout << "  " << words << "\n";
+    for (auto* const clauses : {&report::ladder_clauses, &report::disturbance_clauses})
+        for (auto const& words : clauses(d)) std::cout << "  " << words << "\n";
     for (auto const& other : d.indistinguishable) {
         std::cout << "  not told apart from it: " << joined(other, " + ") << "\n";
     }

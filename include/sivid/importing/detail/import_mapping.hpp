@@ -56,6 +56,11 @@ struct quantity_mapping {
     /// Inputs only: so long [s] may samples be missing; nothing: none may.
     std::optional<exact_decimal> bridge;
     std::optional<exact_decimal> bridge_error; ///< there the input is within this; nothing: exact
+    /// Channels only: the reading was taken within `clock` [s] of its time, while what it shows
+    /// changes by `slope` a second at most, or (`curved`) changes its rate so.
+    exact_decimal clock, slope;
+    bool curved = false;
+    exact_decimal model_error; ///< channels only: joins the bound of all readings, not of starts
     input_place place;
 };
 
@@ -134,13 +139,15 @@ struct mapped_start {
     enum class kind {
         stated, ///< it is in `range`
         value,  ///< it is what the channel shows; `range`, if bounded, has its rate of change
-        rate    ///< it is the rate of what the channel shows; `range` has its own rate of change
+        rate    ///< it is the rate of what the channel shows
     };
     std::string name;
     kind from = kind::stated;
-    stated_range range;
-    std::string unit; ///< of a stated range; empty: the model's
+    stated_range range; ///< of a rate: of the derivative of what is shown after `degree`
+    std::string unit;   ///< of a stated range; empty: the model's
     bool bounded = true;
+    std::size_t degree = 1;              ///< of a rate: 1 bounds x'', 2 bounds x'''
+    std::optional<exact_decimal> within; ///< of a rate: readings so near [s] count, earlier as well
     std::string channel;
     input_place place;
 };

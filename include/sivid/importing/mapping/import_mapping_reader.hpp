@@ -173,6 +173,12 @@ private:
             if (!same)
                 list.elements()[i].fail("the inputs differ from those of the first scenario",
                                         "map every input of the model in every scenario");
+            for (auto const& q : mapping.scenarios[i].channels)
+                if (q.curved && !mapping.max_outlier_fraction.is_zero())
+                    list.elements()[i].fail(
+                        text_of("\"time_error\" of ", in_quotes(q.name),
+                                " bounds slopes by readings, and some may be outliers"),
+                        "state \"rate\" in place of \"acceleration\"");
             check_units(list.elements()[i], mapping, i, &scenario_mapping::inputs);
             check_units(list.elements()[i], mapping, i, &scenario_mapping::channels);
         }

@@ -55,6 +55,7 @@ public:
         data.effects = mapping_.effects;
         for (auto const& s : open_) data.scenarios.push_back(closed(s));
         check_starts();
+        for (std::size_t i = 0; i < result_.names.inputs.size(); ++i) compare_kinds(i);
         for (auto const& n : result_.protocol.notes())
             if (n.what == kind::assumed)
                 data.assumptions.push_back(printable_text(
@@ -189,7 +190,7 @@ private:
         if (q.mapping->error.from == bound_source::kind::number) result = q.mapping->error.number;
         if (q.mapping->error.from == bound_source::kind::proposed)
             result = proposed_.at({input, q.mapping->name});
-        auto more = sample.reading.rounding;
+        auto more = sample.reading.rounding + sample.late;
         if (input) // the file means the nearest double
             more = more + magnitude(exact_decimal::of(*nearest(sample.reading.value)) -
                                     sample.reading.value);
@@ -225,7 +226,7 @@ private:
         std::vector<entry> all;
         for (auto const& q : s.channels)
             for (std::size_t k = 0; k < q.samples.size(); k += s.mapping->thin) {
-                auto r = reading(s, q, k);
+                auto r = reading(s, q, q.samples[k], q.mapping->model_error);
                 all.push_back(
                     {{r.time, *index_of(result_.names.channels, q.mapping->name), r.bound},
                      {std::move(r.value), std::move(r.error)}});
@@ -247,10 +248,10 @@ private:
     }
 
     [[nodiscard]] start_reading reading(open_scenario const& s, imported_quantity const& q,
-                                        std::size_t k) const {
-        auto const& sample = q.samples[k];
+                                        imported_sample const& sample,
+                                        exact_decimal const& more = {}) const {
         auto const& value = sample.reading.value;
-        auto error = bound(q, sample, false);
+        auto error = bound(q, sample, false) + more;
         auto const ends = enclose(value - error, value + error);
         if (!ends) (void)enclosed(s, sample, error + magnitude(value));
         return {*nearest(sample.time), value, std::move(error), *ends};
@@ -280,7 +281,9 @@ private:
         auto const q = std::find_if(s.channels.begin(), s.channels.end(),
                                     [&](auto const& c) { return c.mapping->name == m.channel; });
         std::vector<start_reading> readings;
-        for (std::size_t k = 0; k < q->samples.size(); ++k) readings.push_back(reading(s, *q, k));
+        if (m.within)
+            for (auto const& sample : q->before) readings.push_back(reading(s, *q, sample));
+        for (auto const& sample : q->samples) readings.push_back(reading(s, *q, sample));
         auto const& fraction = mapping_.max_outlier_fraction;
         auto const found = propose_start(m, readings, fraction.times(s.reading_count()).floor());
         bool const rate = m.from == mapped_start::kind::rate;
@@ -292,7 +295,9 @@ private:
                 throw input_error{m.place,
                                   text_of(why, " of ", in_quotes(m.channel),
                                           " within their error bounds and ",
-                                          rate ? "the acceleration" : "the rate"),
+                                          !rate           ? "the rate"
+                                          : m.degree == 1 ? "the acceleration"
+                                                          : "the jerk"),
                                   "one of the bounds is too small: enlarge it"};
             unknown.second = why;
             result_.protocol.add(kind::decided, s.stretch, m.name,
@@ -307,8 +312,12 @@ private:
             kind::assumed, s.stretch, m.name,
             text_of("start from readings: ", rate ? "it is the rate of what " : "it is what ",
                     in_quotes(m.channel), " shows",
-                    m.bounded ? text_of(rate ? ", and changes itself" : ", and changes", " by ",
-                                        range, " a second at any time of ", whole)
+                    m.bounded ? text_of(!rate           ? ", and changes"
+                                        : m.degree == 1 ? ", and changes itself"
+                                                        : ", and changes its own rate",
+                                        " by ", range, " a second at any time ",
+                                        m.within ? text_of("within ", m.within->text(), " s of it")
+                                                 : text_of("of ", whole))
                               : std::string{},
                     fraction.is_zero()
                         ? std::string{", and no reading is outside its bound"}
@@ -325,6 +334,25 @@ private:
                                   text_of("state its box, ", in_quotes(m->name),
                                           ": [lower, upper], or bound how fast it changes: "
                                           "{\"channel\": ..., \"rate\": ...}")};
+    }
+
+    /// An input that acts in no scenario held out, or in all of them, though it does otherwise in
+    /// those to fit: what is found there is judged by no other data.
+    void compare_kinds(std::size_t input) {
+        std::size_t count[2][2] = {}; // held out, acts
+        for (auto const& s : result_.data.scenarios) {
+            auto const& values = s.inputs[input].signal.values();
+            bool const acts =
+                std::any_of(values.begin(), values.end(), [](double const x) { return x != 0; });
+            ++count[s.role == scenario_role::holdout][acts];
+        }
+        for (int const acts : {0, 1})
+            if (auto const fit = count[0][acts];
+                fit > 0 && count[1][acts] == 0 && count[1][1 - acts] > 0)
+                result_.protocol.add(kind::decided, "held out", result_.names.inputs[input].name,
+                                     text_of(acts ? "acts" : "is 0", " in ", std::to_string(fit),
+                                             " scenarios to fit and in none held out: what they "
+                                             "show is not judged by others"));
     }
 
     /// A share of outliers that holds for a record need not hold for each part of it.

@@ -58,6 +58,9 @@ inline void add_remainder(page& out, diagnosis_view const& v) {
     for (suspected_place const& p : v.remainder->where)
         places.push_back(capitalised(place_clause(p, v.time_unit)));
     if (!v.remainder->effects.empty()) out.sentences(places);
+    auto rungs = ladder_clauses(v);
+    for (auto& words : rungs) words = capitalised(words) + ".";
+    out.sentences(rungs);
     if (auto all = disturbance_clauses(v); !all.empty()) {
         out.prose("How large an unknown function of time beside one equation would have to be:");
         for (auto& words : all) words = capitalised(words) + ".";

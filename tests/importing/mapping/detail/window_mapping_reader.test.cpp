@@ -65,6 +65,10 @@ TEST_CASE("where the channels give nothing a box is asked for") {
     CHECK_THAT(refused(starts, R"({ "theta": { "channel": "theta", "rate": -1 } })"),
                ContainsSubstring("/theta/rate: no number from 0"));
     CHECK_THAT(refused(starts, R"({ "theta": "guess" })"), ContainsSubstring("\"propose\""));
+    CHECK_THAT(refused(starts, R"({ "w": { "rate_of": "theta", "jerk": 1, "acceleration": 1 } })"),
+               ContainsSubstring("unknown key"));
+    CHECK_THAT(refused(starts, R"({ "w": { "rate_of": "theta", "jerk": 1, "within": 0 } })"),
+               ContainsSubstring("/w/within: not above 0"));
     CHECK_THAT(refused(starts, R"({ "theta": { "channel": "theta", "speed": 1 } })"),
                ContainsSubstring("unknown key"));
     CHECK_THAT(refused(starts, R"({ "theta": 3 })"), ContainsSubstring("/theta"));

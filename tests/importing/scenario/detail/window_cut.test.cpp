@@ -129,3 +129,62 @@ TEST_CASE("roles, and what does not fit") {
     CHECK_THAT(refused(R"({ "length": 1, "holdout": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10] })"),
                ContainsSubstring("no scenario with the role fit is left"));
 }
+
+TEST_CASE("a servo's log: bounds and starts of windows hold what was planted") {
+    // q = sin(3 t), in counts of 0.001, read up to 1 ms beside the time that the log says; the
+    // input acts in the first three windows alone.
+    std::mt19937_64 random{11};
+    std::uniform_real_distribution<double> unit{-1, 1};
+    std::string text = "time,pump,level\n";
+    std::vector<double> times;
+    for (int k = 0; k < 460; ++k) {
+        double const ms = k == 0 ? 0 : 5 * k + std::round(unit(random) * 10) / 10;
+        times.push_back(ms / 1000);
+        double const q = std::sin(3 * (ms + unit(random) * 0.999) / 1000);
+        text += exact_decimal::rounded(ms, 1).text() + (k < 300 ? ",1," : ",0,") +
+                exact_decimal::rounded(std::round(q * 1000), 0).text() + "\n";
+    }
+    auto const with = [](std::string const& start, std::string const& error) {
+        auto const m = replaced(csv_mapping, "\"initial\": { \"h\": [0, 1] }",
+                                R"("windows": { "length": 0.5, "first": 0.05, "holdout": [1, 3],
+                                   "initial": { "h": "propose", "v": )" +
+                                    start + " } }");
+        return replaced(replaced(m, "\"factor\": 0.01, \"error\": 0.02",
+                                 "\"divisor\": 1000, \"error\": 0.0005, " + error),
+                        "\"offset\": 0 }", "\"offset\": 0 }");
+    };
+    std::string const clock = R"("time_error": { "within": 0.001, "acceleration": 9.1 })";
+    double widest = 0;
+    for (std::string const start : {R"({ "rate_of": "h", "jerk": 27.1, "within": 0.1 })",
+                                    R"({ "rate_of": "h", "jerk": 27.1 })",
+                                    R"({ "rate_of": "h", "acceleration": 9.1, "within": 0.1 })"}) {
+        auto const r = import_csv(with(start, clock + ", \"model_error\": 0.01"), text);
+        REQUIRE(r.data.scenarios.size() == 4);
+        for (auto const& s : r.data.scenarios) {
+            double const t0 = 0.05 + 0.5 * static_cast<double>(s.name.back() - '1');
+            double const begin =
+                *std::lower_bound(times.begin(), times.end(), t0 - 1e-9); // its first reading
+            auto const& v = s.initial.at(*index_of(r.names.states, "v"));
+            REQUIRE(v.stated);
+            CHECK(contains(v.range, 3 * std::cos(3 * begin)));
+            if (start.find("jerk") != start.npos) widest = std::max(widest, width(v.range));
+            for (auto const& m : s.stated) CHECK(dec("0.0105") < m.error);
+            auto const& h = s.initial.at(*index_of(r.names.states, "h"));
+            CHECK(width(h.range) < 0.02); // no model error
+        }
+        CHECK(has_note(r.protocol, "window 5: does not fit"));
+        CHECK(has_note(r.protocol, "is 0 in 1 scenarios to fit and in none held out"));
+        CHECK(has_note(r.protocol, "the model may be off by 0.01"));
+        CHECK(has_note(r.protocol, "was taken within 0.001 s of its time"));
+    }
+    CHECK(widest < 0.5);
+    CHECK_THAT(refusal(with(R"({ "rate_of": "h", "jerk": 0.1, "within": 0.25 })", clock), text),
+               ContainsSubstring("within their error bounds and the jerk"));
+    auto const wild = replaced(with(R"({ "rate_of": "h", "jerk": 27.1 })", clock),
+                               "\"max_outlier_fraction\": 0", "\"max_outlier_fraction\": 0.1");
+    CHECK_THAT(refusal(wild, text), ContainsSubstring("some may be outliers"));
+    auto back = text;
+    back.replace(back.find("\n", 200) + 1, 0, "1,1,0\n"); // a clock that runs backwards
+    CHECK_THAT(refusal(with(R"({ "rate_of": "h", "jerk": 27.1 })", clock), back),
+               ContainsSubstring("a.csv:"));
+}

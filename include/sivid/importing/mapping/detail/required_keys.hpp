@@ -97,10 +97,11 @@ private:
     void starts(json_value const* list) {
         for (auto const& entry : members(list)) {
             if (object(&entry) == nullptr || entry.find("range") != nullptr) continue;
-            if (entry.find("rate_of") != nullptr)
-                all(entry, {{"acceleration", "how fast the rate itself changes at most: without "
-                                             "it differences bound no rate"}});
-            else
+            if (entry.find("rate_of") != nullptr && entry.find("jerk") == nullptr)
+                all(entry, {{"acceleration", "how fast the rate itself changes at most, or jerk, "
+                                             "how fast the acceleration does: without one of "
+                                             "them differences bound no rate"}});
+            else if (entry.find("rate_of") == nullptr)
                 all(entry, {{"channel", "or rate_of"}});
         }
     }

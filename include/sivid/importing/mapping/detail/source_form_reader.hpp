@@ -261,13 +261,35 @@ inline void read_bound(json_value const& entry, bool input, quantity_mapping& q)
     }
 }
 
+/// "time_error" and "model_error" of a channel.
+/// @throws input_error
+inline void read_further_errors(json_value const& entry, bool input, quantity_mapping& q) {
+    using namespace mapping_entries;
+    for (auto const* key : {"time_error", "model_error"})
+        if (auto const* e = entry.find(key); e != nullptr && input)
+            e->fail("an input is within its \"error\" at every time", "put it into \"error\"");
+    if (auto const* m = entry.find("model_error"))
+        q.model_error = positive(*m, "state how far off the model may be, in the channel's unit");
+    auto const* e = entry.find("time_error");
+    if (e == nullptr) return;
+    e->allow_only({"within", "rate", "acceleration"});
+    q.clock = positive(e->at("within"), "state how far off a time may be, in seconds");
+    q.curved = e->find("rate") == nullptr;
+    if (!q.curved && e->find("acceleration") != nullptr)
+        e->fail("\"rate\" and \"acceleration\"", "state one of them");
+    q.slope = positive(e->at(q.curved ? "acceleration" : "rate"), "state the largest one");
+    if (q.curved && q.error.from == bound_source::kind::proposed)
+        e->fail("slopes are bounded by readings whose bound is not known yet",
+                "state \"rate\", or \"error\" as a number");
+}
+
 /// An entry of "inputs" or "channels".
 /// @throws input_error
 [[nodiscard]] inline quantity_mapping read_quantity_mapping(json_value const& entry,
                                                             std::string const& name, bool input) {
     using namespace mapping_entries;
     entry.allow_only({"column", "unit", "factor", "divisor", "offset", "counter_bits", "period",
-                      "range", "error", "bridge"});
+                      "range", "error", "bridge", "time_error", "model_error"});
     quantity_mapping q;
     q.place = entry.place();
     q.name = mapping_entries::name(entry, name);
@@ -309,6 +331,7 @@ inline void read_bound(json_value const& entry, bool input, quantity_mapping& q)
         q.range.emplace(ends.lower, ends.upper);
     }
     read_bound(entry, input, q);
+    read_further_errors(entry, input, q);
     return q;
 }
 

@@ -48,11 +48,15 @@ namespace sivid {
         }
     } else if (object) {
         bool const rate = entry.find("rate_of") != nullptr;
-        if (rate) entry.allow_only({"rate_of", "acceleration"});
+        bool const jerk = rate && entry.find("acceleration") == nullptr;
+        if (rate) entry.allow_only({"rate_of", jerk ? "jerk" : "acceleration", "within"});
         if (!rate) entry.allow_only({"channel", "rate"});
         start.from = rate ? kind::rate : kind::value;
+        start.degree = jerk ? 2 : 1;
         start.channel = entry.at(rate ? "rate_of" : "channel").string();
-        if (auto const* bound = entry.find(rate ? "acceleration" : "rate")) {
+        if (auto const* within = entry.find("within"))
+            start.within = mapping_entries::positive(*within, "state it in seconds");
+        if (auto const* bound = entry.find(!rate ? "rate" : jerk ? "jerk" : "acceleration")) {
             start.bounded = true;
             start.range = mapping_entries::symmetric_range(*bound);
         }

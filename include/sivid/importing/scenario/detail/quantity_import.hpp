@@ -25,6 +25,7 @@ struct imported_sample {
     exact_decimal time; ///< [s]
     converted_reading reading;
     exact_decimal error; ///< as the column states it, in the model's unit; 0: stated elsewhere
+    exact_decimal late;  ///< what an error of its time adds
     double raw = 0;      ///< as recorded, nearly
     /// Of an input: samples before it that the record lacks, as its rows tell.
     std::size_t missing = 0;
@@ -35,6 +36,13 @@ struct imported_sample {
 struct imported_quantity {
     quantity_mapping const* mapping = nullptr;
     std::vector<imported_sample> samples;
+    std::vector<imported_sample> before; ///< of a window: those of the record, for its start
+
+    /// The stated bound of the sensor's error; of a proposed one nothing.
+    [[nodiscard]] exact_decimal const& stated(imported_sample const& sample) const {
+        return mapping->error.from == bound_source::kind::number ? mapping->error.number
+                                                                 : sample.error;
+    }
 };
 
 /// What the readings say about their own error bound.

@@ -2,6 +2,7 @@
 #ifndef SIVID_IMPORTING_SCENARIO_DETAIL_SCENARIO_IMPORT_HPP
 #define SIVID_IMPORTING_SCENARIO_DETAIL_SCENARIO_IMPORT_HPP
 
+#include <sivid/importing/scenario/detail/clock_error.hpp>
 #include <sivid/importing/scenario/detail/window_cut.hpp>
 
 #include <algorithm>
@@ -40,9 +41,7 @@ public:
             whole.channels.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
         if (table.rows.empty()) fail(0, "the file has no data line", "check the file");
 
-        protocol_.add(
-            kind::assumed, name_, "",
-            "the times are exact: no bound allows for jitter, delay or the step of a clock");
+        note_clock();
         if (s_.time.sample_time)
             protocol_.add(kind::assumed, name_, "",
                           text_of("rows follow each other by ", s_.time.sample_time->text(), " ",
@@ -52,6 +51,11 @@ public:
             protocol_.add(kind::changed, name_, "",
                           text_of("time shifted by ", offset.text(), " s"));
         shift_times(whole, offset, protocol_);
+        for (auto& q : whole.channels)
+            if (auto const why = add_clock_errors(q); !why.empty())
+                fail(whole.last_line,
+                     text_of("the error of the time of ", in_quotes(q.mapping->name), ": ", why),
+                     "correct \"time_error\"");
         for (auto& q : whole.inputs) mark_missing(q);
         whole.duration = duration(whole);
         if (s_.thin > 1)
@@ -73,6 +77,27 @@ private:
     [[noreturn]] void fail(std::size_t line, std::string problem, std::string remedy) const {
         throw input_error{
             {.file = s_.file.string(), .line = line}, std::move(problem), std::move(remedy)};
+    }
+
+    void note_clock() {
+        bool exact = s_.channels.empty();
+        for (auto const& q : s_.channels) {
+            exact = exact || q.clock.is_zero();
+            if (!q.clock.is_zero())
+                protocol_.add(kind::assumed, name_, q.name,
+                              text_of("each reading was taken within ", q.clock.text(),
+                                      " s of its time, while what it shows changes ",
+                                      q.curved ? "its rate by " : "by ", q.slope.text(),
+                                      " a second at most: what that may add is in the bounds"));
+            if (!q.model_error.is_zero())
+                protocol_.add(
+                    kind::assumed, name_, q.name,
+                    text_of("the model may be off by ", q.model_error.text(),
+                            " beside the error of a reading; starts have no share of it"));
+        }
+        protocol_.add(kind::assumed, name_, "",
+                      text_of("the times are exact", exact ? "" : " where no time_error is stated",
+                              ": no bound allows for jitter, delay or the step of a clock"));
     }
 
     /// The first row in which every input (without inputs: any channel) has a reading.

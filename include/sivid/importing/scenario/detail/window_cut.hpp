@@ -19,7 +19,7 @@ namespace sivid {
 ///             that their course is the one of the record
 class window_cut {
 public:
-    static constexpr std::size_t most = 10'000;
+    static constexpr std::size_t most = 10'000, most_before = 1000;
 
     /// @param whole  with its final times
     /// @given  whole.mapping->windows (trusted)
@@ -59,7 +59,7 @@ private:
         exact_decimal from, to;
     };
 
-    void note(std::size_t number, char const* why) {
+    void note(std::size_t number, std::string const& why) {
         protocol_.add(kind::dropped, whole_.stretch, "",
                       text_of("window ", std::to_string(number), ": ", why));
     }
@@ -71,7 +71,13 @@ private:
         std::vector<place> result;
         std::size_t number = 1;
         for (auto from = w_.first; w_.most == 0 || number <= w_.most; ++number) {
-            if (end_ < from + w_.length) break;
+            if (end_ < from + w_.length) {
+                if (from < end_)
+                    note(number, text_of("does not fit: it would end at ",
+                                         (from + w_.length).text(), " s, what is recorded at ",
+                                         exact_decimal::shortest(*nearest(end_)).text(), " s"));
+                break;
+            }
             if (number > most)
                 throw input_error{w_.place, "more than 10000 windows",
                                   "state a longer \"every\", or a \"count\""};
@@ -81,6 +87,8 @@ private:
                 note(number, "no reading to begin with before the time of the next one");
             else if (!(end_ < *at + w_.length))
                 result.push_back({number, *at, *at + w_.length});
+            else
+                note(number, "does not fit behind its first reading");
             from = next;
         }
         for (auto const held : w_.holdout)
@@ -162,6 +170,13 @@ private:
         };
         part.rows = static_cast<std::size_t>(row_at(part.last_line + 1) - row_at(part.first_line));
         shift_times(part, -p.from, protocol_);
+        for (std::size_t i = 0; i < part.channels.size(); ++i) {
+            auto const& q = whole_.channels[i];
+            auto const last = first_at(q, from);
+            auto& before = part.channels[i].before;
+            before = piece(q, last - std::min<std::size_t>(last, most_before), last).samples;
+            for (auto& sample : before) sample.time = sample.time - p.from;
+        }
         return part;
     }
     static imported_quantity piece(imported_quantity const& q, std::size_t from, std::size_t to) {

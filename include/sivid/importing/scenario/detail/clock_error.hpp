@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#ifndef SIVID_IMPORTING_SCENARIO_DETAIL_CLOCK_ERROR_HPP
+#define SIVID_IMPORTING_SCENARIO_DETAIL_CLOCK_ERROR_HPP
+
+#include <sivid/importing/scenario/detail/quantity_import.hpp>
+#include <sivid/number/interval_traits.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sivid {
+
+/// What errors of the clock add to the bounds of readings: a reading that was taken within c of its
+/// time t is off by at most c S, with S the largest slope from t - c to t + c. S is stated, or
+/// bounded by readings i <= k <= j and the largest second derivative a: somewhere between the true
+/// times of i and j the slope is at most (|y_j - y_i| + e_i + e_j) / (t_j - t_i - 2 c), and from
+/// there to the reading it changes by at most a (max(t_j - t_k, t_k - t_i) + 2 c).
+/// @guarantee  bounds hold for the stated times, if each reading was taken within c of its own, no
+///             reading of i and j is beyond its bound, and the slope (or a) is as stated
+/// @given  times increase (trusted)
+/// @returns "", or why there is no bound
+[[nodiscard]] inline std::string add_clock_errors(imported_quantity& q) {
+    auto const& m = *q.mapping;
+    if (m.clock.is_zero()) return {};
+    auto& all = q.samples;
+    interval const c = *enclose(m.clock), stated = *enclose(m.slope);
+    std::vector<interval> times, ends;
+    for (std::size_t k = 0; m.curved && k < all.size(); ++k) {
+        auto const& s = all[k];
+        auto const e = q.stated(s) + s.reading.rounding;
+        times.push_back(*enclose(s.time));
+        auto const bound = enclose(s.reading.value - e, s.reading.value + e);
+        if (!bound) return "readings are beyond the range of double";
+        ends.push_back(*bound);
+    }
+    constexpr std::size_t farthest = 32; // what further readings say is swamped by a
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        double slope = m.curved ? std::numeric_limits<double>::infinity() : stated.upper();
+        for (std::size_t n = 1; m.curved && n <= farthest; ++n) {
+            auto const i = k - std::min(k, n), j = std::min(k + n, all.size() - 1);
+            auto const apart = times[j] - times[i] - interval{2.0} * c;
+            if (!(apart.lower() > 0)) continue;
+            auto const way = std::max((times[j] - times[k]).upper(), (times[k] - times[i]).upper());
+            auto const here = interval{mag(ends[j] - ends[i])} / apart +
+                              stated * (interval{way} + interval{2.0} * c);
+            slope = std::min(slope, here.upper());
+        }
+        if (!std::isfinite(slope))
+            return "two readings are needed, further apart than their times are off";
+        all[k].late = rounded_up(exact_decimal::of((c * interval{slope}).upper()), 3);
+    }
+    return {};
+}
+
+} // namespace sivid
+
+#endif // SIVID_IMPORTING_SCENARIO_DETAIL_CLOCK_ERROR_HPP
