@@ -64,6 +64,7 @@ class Regions(Case):
         self.refused("round it", lambda: sivid.confidence(found.model, growth_data(), 0.123456))
         self.assertRaises(ValueError, found.boxes, "outside")
         self.same_by_definition(stored)
+        self.assertEqual(sivid.check(found).code, 0)
 
     def same_by_definition(self, stored):
         """The signs of the seed, in another language: the least squares estimate is in the region."""

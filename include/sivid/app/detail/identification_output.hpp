@@ -99,7 +99,7 @@ struct search_task {
         : of{r},
           told{c},
           data{read_data(r, c.dataset)},
-          disturbances{disturbances_from(c.disturbed, c.errors)},
+          disturbances{disturbances_from(r, c.disturbed, c.errors)},
           problem{posed(r, data, c.effects, disturbances, c.outliers, remembering)},
           title{title_of(data, c.effects, disturbances, problem.model)},
           digest{dataset_digest(c.dataset)},
