@@ -35,6 +35,7 @@
 #include <sivid/space/linear_program/dual_simplex.hpp>
 #include <sivid/space/linear_program/minimax_lp.hpp>
 #include <sivid/space/matrix.hpp>
+#include <sivid/measurement/bound_candidates.hpp>
 #include <sivid/measurement/dead_time.hpp>
 #include <sivid/measurement/error_bound.hpp>
 #include <sivid/measurement/limited_signal.hpp>

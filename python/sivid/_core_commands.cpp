@@ -108,6 +108,12 @@ py::list names_and_units(List const& list) {
     return result;
 }
 
+py::dict decimals(sivid::allowed_disturbances::bounds const& all) {
+    py::dict result;
+    for (auto const& [name, most] : all) result[py::str(name)] = most.text();
+    return result;
+}
+
 } // namespace
 
 void add_commands(py::module_& m) {
@@ -136,6 +142,10 @@ void add_commands(py::module_& m) {
                                            py::make_tuple(u.lower.text(), u.upper.text());
                                    return result;
                                })
+        .def_property_readonly("disturbance",
+                               [](robot const& r) { return decimals(r.disturbances.equations); })
+        .def_property_readonly("error",
+                               [](robot const& r) { return decimals(r.disturbances.channels); })
         .def_property_readonly("effects", [](robot const& r) {
             std::vector<std::string> names;
             for (auto const& e : r.effects) names.push_back(e.name);

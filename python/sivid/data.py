@@ -106,13 +106,14 @@ class Data:
             }
         ]
         self.protocol = ""
+        self.bounds = []
 
     @classmethod
     def read(cls, folder) -> "Data":
         """A data set that is a folder (``sivid-dataset-1``), of ``sivid import`` or ``write``; it stays where it is."""
         data = cls.__new__(cls)
         data._folder = Path(folder)
-        data.protocol = ""
+        data.protocol, data.bounds = "", []
         return data
 
     def __add__(self, other: "Data") -> "Data":
@@ -125,7 +126,8 @@ class Data:
                 "a data set has one of each"
             )
         data = Data.__new__(Data)
-        data._id, data._folder, data._known, data.protocol = self._id, None, self._known, ""
+        data._id, data._folder, data._known = self._id, None, self._known
+        data.protocol, data.bounds = "", []
         data._frames, data._time_unit, data._scenarios = (
             dict(self._frames),
             dict(self._time_unit),
@@ -141,7 +143,8 @@ class Data:
         return data
 
     def write(self, model, folder) -> Path:
-        """Writes the data set for a model; the protocol says what was dropped, changed, assumed (``protocol``).
+        """Writes the data set for a model; the protocol says what was dropped, changed, assumed (``protocol``), and
+        which error bounds the record suggests, with what they rest on (``bounds``, as in import.json).
 
         Errors: ``sivid.Error`` with column, row and remedy; nothing is written then.
         """
@@ -149,6 +152,7 @@ class Data:
         self.protocol = _core.import_arrays(
             mapping.replace('"<exact>', "").replace('</exact>"', ""), self._frames, str(folder)
         )
+        self.bounds = json.loads((Path(folder) / "import.json").read_text(encoding="utf-8"))["bounds"]
         return Path(folder)
 
     def _mapping(self, model) -> dict:

@@ -45,6 +45,8 @@ class Model:
         inputs: Mapping | None = None,
         observe: Callable | None = None,
         effects: Mapping | None = None,
+        disturbance: Mapping | None = None,
+        error: Mapping | None = None,
         time: str = "s",
         about: str = "",
     ):
@@ -73,6 +75,8 @@ class Model:
             "inputs": inputs,
             "constants": constants,
             "outputs": stated,
+            "disturbance": disturbance,
+            "error": error,
             **{f"effect.{_key(effect)}": table for effect, table in (effects or {}).items()},
         }
         for title, table in tables.items():
@@ -135,6 +139,17 @@ class Model:
     def effects(self) -> list[str]:
         """What ``diagnose`` may find missing and ``identify`` may join, by name."""
         return self._core.effects
+
+    @property
+    def disturbance(self) -> dict[str, str]:
+        """Unknown functions of time beside equations that answers allow for: the largest sizes, as decimals, in the
+        states' units per time."""
+        return self._core.disturbance
+
+    @property
+    def error(self) -> dict[str, str]:
+        """How much further off readings may be than their bounds, in the outputs' units."""
+        return self._core.error
 
     def describe(self) -> str:
         """Names, units, and the recorded equations line by line."""

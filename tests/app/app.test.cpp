@@ -97,8 +97,8 @@ TEST_CASE("a region with a stated probability, as page, JSON and table") {
     CHECK(r.code == 0);
     CHECK_THAT(r.out, ContainsSubstring("probability of 95 % (exactly 1 - 5/100)") &&
                           ContainsSubstring("k in [") && ContainsSubstring("seed 7"));
-    CHECK(files_in(out) ==
-          std::set<std::string>{"confidence.csv", "confidence.html", "confidence.json"});
+    CHECK(files_in(out) == std::set<std::string>{"confidence.csv", "confidence.html",
+                                                 "confidence.json", "confidence.page.json"});
     auto const stored = json_of(fs::path{out} / "confidence.json");
     CHECK(stored["above"] == 5);
     CHECK(stored["weights"].size() == stored["measured"].size());
@@ -315,8 +315,9 @@ TEST_CASE("the least disturbance of a data set is bounded from both sides") {
     auto const none = asked();
     CHECK(none.code == 0);
     CHECK_THAT(none.out, ContainsSubstring("without disturbances (proved)"));
-    CHECK(files_in(s.at("out")) ==
-          std::set<std::string>{"disturbance.csv", "disturbance.html", "disturbance.json"});
+    CHECK(files_in(s.at("out")) == std::set<std::string>{"disturbance.csv", "disturbance.html",
+                                                         "disturbance.json",
+                                                         "disturbance.page.json"});
     CHECK(json_of(fs::path{s.at("out")} / "disturbance.json")["size"][1] == 0);
 
     // One reading more than the cup can explain.

@@ -93,9 +93,11 @@ TEST_CASE("the worked example of a data logger") {
     CHECK(noted(r.protocol, "no reading") == std::vector<std::size_t>{125, 126, 255});
     CHECK(noted(r.protocol, "skipped") == std::vector<std::size_t>{1, 2, 4});
     // The readings are on a grid of 0.5 rpm, with up to 1.2 rpm of noise.
-    auto const& p = r.protocol.bounds.at(0).scenarios.at(0).second;
-    CHECK_THAT(p.quantum, WithinRel(0.5 * 0.10471975511966, 1e-6));
-    CHECK(p.bound > 1.45 * 0.1047);
+    auto const& all = r.protocol.bounds.back().candidates; // of the speed
+    CHECK(all.front().from == "step");
+    CHECK_THAT(all.front().bound, WithinRel(0.25 * 0.10471975511966, 1e-6));
+    CHECK(all.back().from == "neighbours");
+    CHECK(all.back().bound > 1.45 * 0.1047);
     temporary_folder const folder;
     write_import(r, folder.path() / "out");
     CHECK(read_dataset(folder.path() / "out", r.names).scenarios.size() == 1);

@@ -51,7 +51,7 @@ class Regions(Case):
     def test_a_region_with_a_stated_probability(self):
         frame = growth_frame()
         frame["mass"] += np.where(np.arange(len(frame["mass"])) % 3 == 0, 0.004, -0.002)
-        found = sivid.confidence(sivid.Model.read(GROWTH), growth_data(frame=frame), 0.9, seed=3, budget=2)
+        found = sivid.confidence(sivid.Model.read(GROWTH), growth_data(frame=frame), 0.9, seed=3, accuracy=0.1, budget=60)
         self.assertEqual(found.probability, 0.9)
         stored = found.to_json()
         self.assertEqual((stored["sums"], stored["above"], stored["seed"]), (100, 10, 3))
@@ -64,6 +64,7 @@ class Regions(Case):
         self.refused("round it", lambda: sivid.confidence(found.model, growth_data(), 0.123456))
         self.assertRaises(ValueError, found.boxes, "outside")
         self.same_by_definition(stored)
+        self.assertEqual(sivid.check(found).code, 0)
 
     def same_by_definition(self, stored):
         """The signs of the seed, in another language: the least squares estimate is in the region."""

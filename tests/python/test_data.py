@@ -48,6 +48,8 @@ class Frames(Case):
         self.assertIn(",0.500000001\n", self.written(growth_data(frame=frame, outputs={"x": ("mass", "sigma")}))[1])
         data = growth_data(outputs={"x": {"column": "mass", "error": "0.25", "factor": 2}})
         self.assertIn(",0.25", self.written(data)[1])
+        self.assertEqual([b["bound"] for b in data.bounds], [""])  # stated
+        self.assertTrue(all(c["rests_on"] for c in data.bounds[0]["candidates"]))
         self.refused("can be proposed", lambda: self.written(growth_data(outputs={"x": ("mass", "propose")})))
         self.refused("needs the bound of its error", lambda: growth_data(outputs={"x": "mass"}), TypeError)
         self.refused("positive", lambda: self.written(growth_data(outputs={"x": ("mass", 0)})))

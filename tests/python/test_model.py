@@ -79,6 +79,16 @@ class Models(Case):
             )
         self.assertEqual(results[0], results[1])
 
+    def test_disturbances_that_a_model_allows_for(self):
+        arguments = {"states": {"v": "1 m/s"}, "outputs": {"v": "v"}, "constants": {"k": "[0, 1] 1/s"}}
+        model = sivid.Model(
+            "cart", rate=lambda t, x, u, c: {"v": -c.k * x.v}, disturbance={"v": "20 cm/s^2"}, error={"v": "1 mm/s"}, **arguments
+        )
+        self.assertEqual((model.disturbance, model.error), ({"v": "0.2"}, {"v": "0.001"}))
+        self.assertIn("allowed for: v up to 0.2 m/s^2, readings of v up to 0.001 m/s", model.describe())
+        self.assertEqual(hovercraft().disturbance, {})
+        self.refused(["'w' is no state", "line"], lambda: sivid.Model.parse(model.text.replace("v = \"20", "w = \"20")))
+
     def test_another_equation_is_another_graph(self):
         def other(t, x, u, c):
             rates = hovercraft_rate(t, x, u, c)

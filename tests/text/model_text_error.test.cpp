@@ -134,6 +134,48 @@ TEST_CASE("numbers and effects that are wrong are told") {
     says("shown(speed)", "shown(sped)", 38, 29, "did you mean 'speed'?");
 }
 
+TEST_CASE("disturbances that are wrong are told") {
+    auto const plain = texts::with(texts::motor, ", delay = \"late\"", "");
+    auto const motor =
+        plain.substr(0, plain.find("late =")) + plain.substr(plain.find("[outputs]"));
+    auto const told = [&](std::string const& table, std::string const& line, std::size_t column,
+                          std::string const& what) {
+        auto const text = motor + "[" + table + "]\n" + line + "\n";
+        auto const last = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+        auto const error = error_of(text, "motor.toml");
+        CAPTURE(table, line);
+        REQUIRE(error);
+        CAPTURE(error->what());
+        CHECK(error->place().line == last);
+        CHECK(error->place().column == column);
+        CHECK_THAT(std::string(error->what()), ContainsSubstring(what));
+    };
+    CHECK_FALSE(error_of(motor + "[disturbance]\nw = \"2 rad/s^2\"\n[error]\ni = \"1 mA\"\n", "m"));
+    told("disturbance", "thta = \"1 rad/s\"", 1, "'thta' is no state; did you mean 'theta'?");
+    told("disturbance", "angle = \"1 rad/s\"", 1, "'angle' is no state");
+    told("error", "sped = \"1 rpm\"", 1, "'sped' is no output; did you mean 'speed'?");
+    told("disturbance", "w = \"2 rad/s\"", 6, "the bound of 'w' has the unit rad/s^2");
+    told("disturbance", "w = 2", 5, "the bound of 'w' has the unit rad/s^2");
+    told("error", "i = \"1 V\"", 6, "the bound of 'i' has the unit A");
+    told("error", "i = \"-1 A\"", 6, "a number above 0 is needed here");
+    told("error", "i = \"0 A\"", 6, "write the largest size, as in \"0.2 A\"");
+    told("error", "i = \"[1, 2] A\"", 6, "a number above 0 is needed here");
+    told("error", "i = nan", 5, "a decimal number is needed");
+    told("error", "i = inf", 5, "a decimal number is needed");
+    told("error", "i = \"nan A\"", 6, "a number is needed here");
+    told("error", "i = \"1e400 A\"", 6, "beyond all doubles");
+    told("error", "i = \"1e308 GA\"", 6, "beyond all doubles");
+    told("error", "i = \"1 A\"\ni = \"2 A\"", 5, "redefine");
+    auto const late = error_of(texts::motor + "[disturbance]\nw = \"2 rad/s^2\"\n", "motor.toml");
+    REQUIRE(late);
+    CHECK_THAT(std::string(late->what()), ContainsSubstring("the model has delays"));
+    auto const unseen =
+        texts::with(motor, "angle = { equation = \"theta\", unit = \"deg\" }\n", "");
+    auto const hidden = error_of(unseen + "[disturbance]\ntheta = \"1 rad/s\"\n", "motor.toml");
+    REQUIRE(hidden);
+    CHECK_THAT(std::string(hidden->what()), ContainsSubstring("no channel depends on 'theta'"));
+}
+
 TEST_CASE("files that are no text are refused") {
     auto const refuses = [](std::string const& text, std::string const& what) {
         auto const error = error_of(text);

@@ -232,6 +232,32 @@ TEST_CASE("a text with all that the format has is read") {
     CHECK(all.about.constants.size() == text.model.about.constants.size() + 10);
 }
 
+TEST_CASE("disturbances that a text allows for are in the model's units, never smaller") {
+    auto const text = [](std::string const& size) {
+        return model_from_text(
+            "format = \"sivid-model-1\"\nname = \"m\"\ntime = \"ms\"\n[states]\na = \"10 rad\"\n"
+            "[equations]\na = \"1 [rad/s]\"\n[outputs]\ny = { equation = \"a\", unit = \"mrad\" }\n"
+            "[disturbance]\na = \"" +
+                size + "\"\n[error]\ny = \"0.1 rad\"\n",
+            "m.toml");
+    };
+    auto const exact = text("3 rad/s").disturbances;
+    REQUIRE(exact.equations.size() == 1);
+    CHECK(exact.equations[0].first == "a");
+    CHECK(exact.equations[0].second.text() == "0.003");
+    REQUIRE(exact.channels.size() == 1);
+    CHECK(exact.channels[0].second.text() == "100");
+    // 180 deg/s are pi/1000 rad/ms.
+    auto const most = text("180 deg/s").disturbances.equations[0].second;
+    CHECK(*exact_decimal::parse("3.14159265358979323846264338327e-3") < most);
+    CHECK(most < *exact_decimal::parse("3.1415926535897932384626433834e-3"));
+    CHECK(model_from_text(texts::motor, "motor.toml").disturbances.empty());
+
+    auto const cart = read_model(SIVID_SOURCE_DIR "/tests/text/cart.toml").disturbances;
+    CHECK(cart.equations.size() == 1);
+    CHECK(cart.channels.size() == 1);
+}
+
 TEST_CASE("units of a text are converted exactly") {
     auto const text = model_from_text(texts::motor, "motor.toml");
     auto const& constants = text.model.about.constants;

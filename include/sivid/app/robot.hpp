@@ -4,6 +4,7 @@
 
 #include <sivid/diagnosis/diagnosis_run.hpp>
 #include <sivid/diagnosis/manoeuvre.hpp>
+#include <sivid/io/allowed_disturbances.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/model.hpp>
@@ -78,6 +79,8 @@ struct robot {
     /// Error bounds of the channels, in their units, for `rank --scenario`; empty: told by
     /// --measure.
     std::vector<double> errors{};
+    /// What answers allow for unless told otherwise: unknown functions of time.
+    allowed_disturbances disturbances{};
     std::map<std::string, std::string> meanings{};   ///< of constants, for reports
     std::optional<report::plane_channels> plane{};   ///< a position, for pictures from above
     std::vector<manoeuvre> manoeuvres{};             ///< that a diagnosis may propose

@@ -20,6 +20,7 @@ namespace sivid::app {
         text.about.empty() ? text.model.about.name + ", a model in " + file : text.about;
     robot result{std::move(name), about, std::move(text.model), std::move(text.effects),
                  std::move(file)};
+    result.disturbances = std::move(text.disturbances);
     for (std::size_t j = 0; j < text.unknown.size(); ++j)
         result.prior.push_back({text.unknown[j], exact_decimal::of(text.prior[j].lower()),
                                 exact_decimal::of(text.prior[j].upper())});

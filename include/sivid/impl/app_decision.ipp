@@ -4,7 +4,6 @@
 
 #include <sivid/app/impl/decide.ipp>
 #include <sivid/app/impl/design.ipp>
-#include <sivid/app/impl/disturbance.ipp>
 #include <sivid/app/impl/export.ipp>
 #include <sivid/app/impl/rank.ipp>
 

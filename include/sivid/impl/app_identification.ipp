@@ -5,6 +5,7 @@
 #include <sivid/app/impl/check.ipp>
 #include <sivid/app/impl/confidence.ipp>
 #include <sivid/app/impl/diagnose.ipp>
+#include <sivid/app/impl/disturbance.ipp>
 #include <sivid/app/impl/identify.ipp>
 #include <sivid/app/impl/report.ipp>
 

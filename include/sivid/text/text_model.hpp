@@ -2,6 +2,7 @@
 #ifndef SIVID_TEXT_TEXT_MODEL_HPP
 #define SIVID_TEXT_TEXT_MODEL_HPP
 
+#include <sivid/io/allowed_disturbances.hpp>
 #include <sivid/model/effect.hpp>
 #include <sivid/model/model.hpp>
 #include <sivid/model/parameter_choice.hpp>
@@ -22,6 +23,9 @@ struct text_model {
     std::vector<std::string> unknown; ///< the constants that have a prior, in the file's order
     box prior;                        ///< theirs, in the units of the constants
     std::vector<effect> effects;      ///< what the model may leave out, in the file's order
+    /// What it allows for, as `[disturbance]` and `[error]` state it, in the model's units:
+    /// `with_disturbance` poses a problem with it.
+    allowed_disturbances disturbances;
 
     /// The constants with a prior are unknown, the others nominal.
     [[nodiscard]] parameter_choice parameters() const { return {unknown, {}}; }

@@ -47,19 +47,19 @@ TEST_CASE("long lists of lines are cut in the text alone") {
 
 TEST_CASE("proposed bounds are told with what they rest on") {
     import_protocol p;
-    sivid::error_bound_proposal good, none;
-    good.bound = 0.031;
-    good.quantum = 0.0048876;
-    good.support = 300;
-    good.assumptions = {"no drift"};
-    none.refusal = "too short";
-    p.bounds.push_back({"h", "m", "0.031", {{"A", good}, {"B", none}}});
+    p.bounds.push_back({"h", "m", "0.031", {{"neighbours", 0.031, 1.0 / 301, {"no drift"}}}});
+    p.bounds.push_back(
+        {"u", "", "", {{"step", 0.5, 0, {"rounded"}}, {"neighbours", 0, 0, {"short"}}}});
     CHECK_THAT(p.text(),
-               ContainsSubstring("error bound of h, proposed: 0.031 m\n  A: step 0.00489"));
-    CHECK_THAT(p.text(), ContainsSubstring("    assumed: no drift\n  B: too short\n"));
+               ContainsSubstring("error bound of h, proposed: 0.031 m\n  neighbours: 0.031 "
+                                 "m, worse at most 0.333 %\n    assumed: no drift\n"));
+    CHECK_THAT(p.text(),
+               ContainsSubstring("error bound of u is stated; candidates\n  step: 0.5\n    "
+                                 "assumed: rounded\n  neighbours: none\n    short\n"));
+    CHECK_THAT(p.text(), ContainsSubstring("--by-bounds"));
     auto const json = nlohmann::json::parse(p.json());
-    CHECK(json["bounds"][0]["scenarios"][0]["support"] == 300);
-    CHECK(json["bounds"][0]["scenarios"][1]["refusal"] == "too short");
+    CHECK(json["bounds"][0]["candidates"][0]["rests_on"][0] == "no drift");
+    CHECK(json["bounds"][1]["candidates"][0]["bound"] == 0.5);
 }
 
 TEST_CASE("the JSON is UTF-8 whatever the names are") {

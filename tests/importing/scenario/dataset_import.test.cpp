@@ -21,6 +21,10 @@ std::string smooth(unsigned n, double noise, unsigned seed = 1) {
     return text;
 }
 
+bool contains_word(std::string const& text, std::string const& word) {
+    return (" " + text + " ").find(" " + word + " ") != std::string::npos;
+}
+
 } // namespace
 
 TEST_CASE("decimals are scaled exactly") {
@@ -143,7 +147,8 @@ TEST_CASE("a proposed bound: once for each channel, from the fit scenarios alone
     folder.write("b.csv", smooth(300, 5, 2));
     auto const r = import_in(folder);
     REQUIRE(r.protocol.bounds.size() == 1);
-    CHECK(r.protocol.bounds[0].scenarios.size() == 1); // not the one held out
+    for (auto const& c : r.protocol.bounds[0].candidates)
+        for (auto const& words : c.rests_on) CHECK_FALSE(contains_word(words, "B")); // held out
     auto const& error = r.data.scenarios.at(0).stated.at(0).error;
     CHECK(error.text() == r.protocol.bounds[0].bound);
     CHECK(error == r.data.scenarios.at(1).stated.at(0).error);
@@ -158,12 +163,57 @@ TEST_CASE("more outliers than the data set allows are told") {
         table = replaced(table, spike, std::string{spike} + "9");
     auto const proposing = replaced(csv_mapping, "\"error\": 0.02", "\"error\": \"propose\"");
     auto const r = import_csv(proposing, table);
-    CHECK(r.protocol.bounds.at(0).scenarios.at(0).second.outliers == 2);
     CHECK(has_note(r.protocol, "2 samples may violate the proposed bound"));
     auto const allowed = import_csv(
         replaced(proposing, "\"max_outlier_fraction\": 0", "\"max_outlier_fraction\": 0.01"),
         table);
     CHECK_FALSE(has_note(allowed.protocol, "may violate"));
+}
+
+TEST_CASE("candidates for a stated bound hold a planted error where what they rest on is so") {
+    // Twice the same command; the first 40 readings at rest; errors up to 0.05 m, steps of 0.01 m.
+    auto const table = [](unsigned seed) {
+        std::mt19937_64 random{seed};
+        std::uniform_real_distribution<double> draw{-5, 5};
+        std::string text = "time,pump,level\n";
+        for (int i = 0; i < 400; ++i) {
+            double const level = i < 40 ? 100 : 100 + 60 * std::sin(0.015 * (i - 40));
+            text += std::to_string(10 * i) + "," + (i < 40 ? "0" : "1") + "," +
+                    exact_decimal::rounded(level + draw(random), 0).text() + "\n";
+        }
+        return text;
+    };
+    auto two = replaced(csv_mapping, "\"linear\"", "\"hold\"");
+    auto const from = two.find("    { \"name\"");
+    auto const scenario = two.substr(from, two.rfind(" ]") - from);
+    auto const second = replaced(replaced(scenario, "\"A\"", "\"B\""), "a.csv", "b.csv");
+    two.insert(two.rfind(" ]"), ", " + second);
+    temporary_folder const folder;
+    folder.write("mapping.json", two);
+    folder.write("a.csv", table(1));
+    folder.write("b.csv", table(2));
+    auto const r = import_in(folder);
+    REQUIRE(r.protocol.bounds.size() == 1); // the input is taken as exact
+    auto const& b = r.protocol.bounds[0];
+    CHECK(b.bound.empty());
+    REQUIRE(b.candidates.size() == 4);
+    auto const at = [&](std::size_t k, char const* from) {
+        CHECK(b.candidates[k].from == from);
+        CHECK_FALSE(b.candidates[k].rests_on.empty());
+        return b.candidates[k].bound;
+    };
+    CHECK_THAT(at(0, "step"), WithinAbs(0.005, 1e-9));
+    double const rest = at(1, "rest"), runs = at(2, "repeated"), near = at(3, "neighbours");
+    CHECK((rest > 0.03 && rest <= 0.055));
+    CHECK((runs > 0.03 && runs <= 0.055)); // no less than half of the largest difference
+    CHECK((near >= 0.05 && near < 0.15));
+    CHECK_THAT(b.candidates[1].rests_on[0], ContainsSubstring("nothing moves in"));
+    CHECK(b.candidates[3].beyond > 0);
+    CHECK(b.candidates[3].beyond < 0.01);
+    // Other commands are no repetition.
+    auto other = table(2);
+    folder.write("b.csv", replaced(other, "\n500,1,", "\n500,2,"));
+    CHECK(import_in(folder).protocol.bounds[0].candidates.size() == 3);
 }
 
 TEST_CASE("no bound is made up") {
@@ -261,7 +311,8 @@ TEST_CASE("measured machines: bounds as their descriptions say") {
     }
     auto const tanks =
         import_one("cascaded_tanks/estimation.csv", "pump_voltage_V", "level_lower_tank_V");
-    auto const& q = tanks.protocol.bounds.at(0).scenarios.at(0).second;
+    auto const& q = tanks.protocol.bounds.at(0).candidates.back();
+    CHECK(q.from == "neighbours");
     CHECK(q.bound > 0.09); // 0.15 V is suggested
     CHECK(q.bound < 0.2);
     CHECK(tanks.data.scenarios[0].measurements.size() == 1024);

@@ -40,8 +40,8 @@ namespace sivid::app::detail {
 /// What was tried before a search, a line each.
 inline void print_tried(contraction_journal const& journal) {
     for (auto const& row : report::tried_table(journal).rows) {
-        auto const &by = row[0], &outcome = row[1], &why = row[2], &effort = row[3];
-        std::cout << "  " << by << ": " << outcome;
+        auto const &by = row[0], &ended = row[1], &why = row[2], &effort = row[3];
+        std::cout << "  " << by << ": " << ended;
         if (!effort.empty()) std::cout << " (" << effort << ")";
         std::cout << (why.empty() ? "\n" : "; " + why + "\n");
     }
@@ -99,7 +99,7 @@ struct search_task {
         : of{r},
           told{c},
           data{read_data(r, c.dataset)},
-          disturbances{disturbances_from(c.disturbed, c.errors)},
+          disturbances{disturbances_from(r, c.disturbed, c.errors)},
           problem{posed(r, data, c.effects, disturbances, c.outliers, remembering)},
           title{title_of(data, c.effects, disturbances, problem.model)},
           digest{dataset_digest(c.dataset)},

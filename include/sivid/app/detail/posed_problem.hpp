@@ -8,8 +8,10 @@
 #include <sivid/app/robot.hpp>
 #include <sivid/io/allowed_disturbances.hpp>
 #include <sivid/io/dataset.hpp>
+#include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/dataset_effects.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/io/result/problem_digest.hpp>
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/model/affected_problem.hpp>
 
@@ -38,6 +40,16 @@ inline std::string seen_from(std::filesystem::path const& here,
     auto const way = std::filesystem::relative(there, here, fault);
     auto const text = fault ? std::string{} : way.generic_string();
     return unprintable_in(text).empty() ? text : std::string{};
+}
+
+/// Of which data and problem a result is, for its check.
+template <class Command>
+json_writer& write_source(json_writer& json, Command const& c,
+                          identification_problem const& problem) {
+    json.key("source").object("folder", seen_from(c.out, c.dataset), "sha256",
+                              dataset_digest(c.dataset));
+    return json.members("problem", problem_digest(problem), "effects", c.effects, "most_seconds",
+                        c.budget);
 }
 
 /// The data set of a folder. @throws input_error
@@ -75,20 +87,36 @@ inline std::vector<std::string> assumptions_of(robot const& r, dataset const& da
     return result;
 }
 
-/// "--disturbance v=0.8", "--error y=0.1"
+/// Takes out of the model's own bounds what has this name. @returns  whether there was one
+inline bool take_out(robot const& r, allowed_disturbances::bounds& all, std::string const& name) {
+    auto const named = [&r](std::string const& known) { // a state has two names
+        for (auto const& s : r.model.about.states)
+            if (s.equation_name() == known) return s.name;
+        return known;
+    };
+    return std::erase_if(all, [&](auto const& b) { return named(b.first) == named(name); }) > 0;
+}
+
+/// Those of the model but where "--disturbance v=0.8", "--error y=0.1" take their place, 0 of what
+/// the model disturbs leaving it out.
 /// @throws bad_request
 [[nodiscard]] inline allowed_disturbances
-disturbances_from(std::vector<std::string> const& equations,
+disturbances_from(robot const& r, std::vector<std::string> const& equations,
                   std::vector<std::string> const& channels) {
-    auto const read = [](std::vector<std::string> const& list, std::string const& option) {
-        allowed_disturbances::bounds all;
+    auto const read = [&](allowed_disturbances::bounds all, std::vector<std::string> const& list,
+                          std::string const& option) {
+        allowed_disturbances::bounds told;
         for (auto const& text : list) {
             auto const [name, value] = detail::assignment(text, option);
-            all.emplace_back(name, decimal_of(value, option + " " + name));
+            auto const most = decimal_of(value, option + " " + name);
+            bool const stated = take_out(r, all, name);
+            if (!stated || !most.is_zero()) told.emplace_back(name, most);
         }
+        all.insert(all.end(), told.begin(), told.end());
         return all;
     };
-    return {read(equations, "--disturbance"), read(channels, "--error")};
+    return {read(r.disturbances.equations, equations, "--disturbance"),
+            read(r.disturbances.channels, channels, "--error")};
 }
 
 /// The problem in which disturbances act, if there are any.

@@ -246,10 +246,12 @@ private:
     }
     template <class Command>
     static void add_disturbances(CLI::App& s, Command& c) {
-        s.add_option("--disturbance", c.disturbed,
-                     "unknown functions of time beside equations, with their largest value in the "
-                     "state's unit per time: v=0.8; the answer is for all of them, and predict, "
-                     "verify, control and check take them from the result")
+        s.add_option(
+             "--disturbance", c.disturbed,
+             "unknown functions of time beside equations, with their largest value in the "
+             "state's unit per time: v=0.8; the answer is for all of them, and predict, "
+             "verify, control and check take them from the result. In place of what the model "
+             "itself states; 0: without")
             ->delimiter(',');
         s.add_option("--error", c.errors,
                      "channels whose readings may be so much further off than their bounds: y=0.1")
@@ -573,10 +575,13 @@ private:
 
     void add_check() {
         auto& c = check_;
-        auto* const s = add(c, "check", "prove the result of `identify` or `diagnose` anew",
+        auto* const s = add(c, "check",
+                            "prove the result of a command anew: of identify, online, diagnose, "
+                            "confidence, disturbance",
                             "result --all", [this, &c] { return run(of_, c); });
         s->add_option("result", c.result,
-                      "folder with result.json and boxes.csv, or with diagnosis.json")
+                      "folder with result.json and boxes.csv, or with diagnosis.json, "
+                      "confidence.json or disturbance.json")
             ->required();
         s->add_option("--dataset", c.dataset, "its data set, if it is not where the result says");
         s->add_flag("--all", c.all, "every box instead of a sample");
@@ -586,7 +591,9 @@ private:
         s->add_option("--seed", c.seed, "of the sample")->capture_default_str();
         add_method(*s, c.how, "first-order sets of the check");
         s->add_option("--set", c.how.set, "refused: the check has sets of its own");
-        s->add_option("--budget", c.budget, "seconds (10, of a diagnosis 60, with --all 3600)")
+        s->add_option("--budget", c.budget,
+                      "seconds (10, of a diagnosis 60, with --all 3600; a region and "
+                      "a disturbance are made anew with what they had)")
             ->check(number_between(0.0, 1e9));
         s->add_flag("--multiprecision", c.multiprecision,
                     "boxes too in 40 digits: 20 times slower");

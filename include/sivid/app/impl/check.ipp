@@ -6,11 +6,14 @@
 
 #include <sivid/app/console.hpp>
 #include <sivid/app/detail/posed_problem.hpp>
+#include <sivid/app/impl/confidence.ipp>
+#include <sivid/app/impl/disturbance.ipp>
 #include <sivid/app/program.hpp>
 #include <sivid/io/dataset/dataset_digest.hpp>
 #include <sivid/io/diagnosis_reader.hpp>
 #include <sivid/io/identification_reader.hpp>
 #include <sivid/io/problem_from_dataset.hpp>
+#include <sivid/io/result/detail/stored_values.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/io/text/durable_file.hpp>
 #include <sivid/model/describe.hpp>
@@ -18,6 +21,7 @@
 #include <sivid/report/number_text.hpp>
 #include <sivid/verifier/certificate.hpp>
 #include <sivid/verifier/diagnosis_check.hpp>
+#include <sivid/verifier/disturbance_check.hpp>
 #include <sivid/verifier/identification_check.hpp>
 #ifdef SIVID_HAS_MPFI
 #include <sivid/verifier/mp_identification_check.hpp>
@@ -28,6 +32,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -101,8 +106,10 @@ inline void print_unchecked(std::filesystem::path const& folder) {
     std::error_code fault;
     for (auto const& entry : std::filesystem::directory_iterator(folder, fault)) {
         auto const name = entry.path().filename().string();
-        constexpr std::array checked{"result.json",      "boxes.csv",   "products.csv",
-                                     "certificates.csv", "outputs.csv", "diagnosis.json"};
+        constexpr std::array checked{"result.json",      "boxes.csv",      "products.csv",
+                                     "certificates.csv", "outputs.csv",    "diagnosis.json",
+                                     "confidence.json",  "confidence.csv", "disturbance.csv",
+                                     "disturbance.json"};
         if (std::ranges::find(checked, name) == checked.end())
             names.push_back(printable_text(name, 60));
     }
@@ -201,6 +208,93 @@ inline int check_diagnosed(robot const& r, check_command const& c) {
     return concluded(data.id, findings, c.result);
 }
 
+/// Whether a file is what the same work writes here, but for its seconds and where the data lie.
+inline check_finding made_again(std::filesystem::path const& file, std::string const& made) {
+    auto const lines = [](std::string const& text) {
+        std::vector<std::string> all;
+        std::istringstream in(text);
+        for (std::string line; std::getline(in, line); all.push_back(line))
+            if (line.starts_with("  \"seconds\"") || line.starts_with("  \"source\"")) line.clear();
+        return all;
+    };
+    auto const stored = lines(read_text(file)), own = lines(made);
+    auto const name = file.filename().string();
+    if (stored == own) return {name, outcome::verified, "made anew, the same to the last digit"};
+    auto const at = std::ranges::mismatch(stored, own).in1 - stored.begin();
+    return {name, outcome::undecided,
+            "line " + std::to_string(at + 1) + " is not what is made anew here"};
+}
+
+/// A result of `confidence` or `disturbance`, by the same work once more.
+/// @param made  receives the command and the file, and proves
+template <class Command, class Made>
+int check_by_making(robot const& r, check_command const& told, std::string const& file,
+                    Made const& made) {
+    auto const root = read_json(told.result / file);
+    auto const& source = root.at("source");
+    Command again;
+    again.dataset = data_of_result(told.result, told.dataset, source.at("folder").any_string());
+    again.effects = io_detail::texts(root.at("effects"));
+    again.budget = io_detail::nearest_number(root.at("most_seconds"));
+    std::cout << "checking " << (told.result / file).string() << " against "
+              << again.dataset.lexically_normal().string() << "\n";
+    auto const data = read_data(r, again.dataset);
+    std::vector all{source_of(again.dataset, data, root.at("dataset").any_string(),
+                              source.at("sha256").string(), "used")};
+    print(all.front());
+    if (all.front().found == outcome::refuted) return refuted;
+    for (auto& f : made(again, root, data)) {
+        print(f);
+        all.push_back(std::move(f));
+    }
+    return concluded(data.id, all, told.result);
+}
+
+inline int check_region(robot const& r, check_command const& c) {
+    return check_by_making<confidence_command>(
+        r, c, "confidence.json",
+        [&](confidence_command& again, auto const& root, auto const& data) {
+            again.probability = io_detail::nearest_number(root.at("probability"));
+            again.seed = io_detail::count(root.at("seed"));
+            again.sums = io_detail::count(root.at("sums"));
+            if (auto const& a = root.at("accuracy"); a.type() != json_value::kind::null)
+                again.accuracy = io_detail::nearest_number(a);
+            auto const problem = posed(r, data, again.effects, {});
+            auto const nominal = io_detail::by_name(root.at("nominal"), io_detail::nearest_number);
+            auto const region = region_of(r, again, data, problem, {.nominal = nominal});
+            return std::vector{
+                made_again(c.result / "confidence.json",
+                           confidence_json(again, problem, data.id, region)),
+                made_again(c.result / "confidence.csv",
+                           io_detail::paving_csv(region.names, region.found.paving))};
+        });
+}
+
+inline int check_least_disturbance(robot const& r, check_command const& c) {
+    auto const scales = [](json_value const& list) {
+        least_disturbance_answer::scales all;
+        for (auto const& q : list.elements())
+            all.emplace_back(q.at("name").string(), io_detail::nearest_number(q.at("scale")));
+        return all;
+    };
+    return check_by_making<disturbance_command>(
+        r, c, "disturbance.json", [&](disturbance_command& again, auto const& root, auto const&) {
+            again.curve = io_detail::count(root.at("curve"));
+            least_disturbance_answer const a(r, again, scales(root.at("equations")),
+                                             scales(root.at("channels")));
+            std::vector all{
+                check_disturbance_witness(a.problem, a.set, a.found),
+                made_again(c.result / "disturbance.json", disturbance_json(again, a)),
+                made_again(c.result / "disturbance.csv", disturbance_csv(a.problem, a.found))};
+            if (a.curve.size() > 0)
+                all.push_back(made_again(c.result / "curve.csv", curve_csv(a.curve)));
+            bool const apart =
+                is_empty(intersect(io_detail::outward(root.at("size")), a.found.size));
+            if (apart) all.push_back({"size", outcome::refuted, "it is proved to be another one"});
+            return all;
+        });
+}
+
 } // namespace detail
 
 SIVID_DECL int run(robot const& r, check_command const& c) {
@@ -208,13 +302,18 @@ SIVID_DECL int run(robot const& r, check_command const& c) {
         throw bad_request("--set: check proves by sets of its own, of first order, and with --all "
                           "by Taylor models before these; leave it out, whatever identify took");
     watch_interrupts(); // reading a large result takes a while, too
-    std::error_code fault;
-    bool const diagnosed = std::filesystem::exists(c.result / "diagnosis.json", fault);
-    bool const identified = std::filesystem::exists(c.result / "result.json", fault);
-    int const first = identified || !diagnosed ? detail::check_identification(r, c) : done;
-    int const second = diagnosed ? detail::check_diagnosed(r, c) : done;
+    std::vector<int> codes;
+    auto const check = [&](char const* file, auto const& how) {
+        std::error_code fault;
+        if (std::filesystem::exists(c.result / file, fault)) codes.push_back(how(r, c));
+    };
+    check("result.json", detail::check_identification);
+    check("diagnosis.json", detail::check_diagnosed);
+    check("confidence.json", detail::check_region);
+    check("disturbance.json", detail::check_least_disturbance);
+    if (codes.empty()) return detail::check_identification(r, c); // which says what is missing
     for (int const code : {refuted, undecided})
-        if (first == code || second == code) return code;
+        if (std::ranges::find(codes, code) != codes.end()) return code;
     return done;
 }
 

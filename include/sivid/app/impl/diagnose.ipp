@@ -287,6 +287,7 @@ public:
           data_{read_data(r, c.dataset)},
           problem_{problem_from_dataset(data_, r.model)},
           effects_{chosen_effects(r.effects, data_)},
+          title_{data_.id + (r.disturbances.empty() ? "" : ", disturbances left out")},
           kept_{holdout_from_dataset(data_, r.model.about)},
           options_{r.effort} {}
 
@@ -320,7 +321,7 @@ public:
             write(*found);
         }
         progress_.finish();
-        print_summary(found->result, data_.id, command_.out, !kept_.empty());
+        print_summary(found->result, title_, command_.out, !kept_.empty());
         bool const explained = found->result.answer == answer_kind::none ||
                                found->result.answer == answer_kind::effects;
         if (explained && left() > 0 && wanted()) bound_parameters(*found);
@@ -350,7 +351,7 @@ private:
     /// diagnosis.json and report.html with its data, all or none.
     void write(diagnosis_run const& run) const {
         auto const page = report::stored(report::view_of(
-            run.result, plot_data(run, kept_), page_options(run, data_.id, command_.command_line)));
+            run.result, plot_data(run, kept_), page_options(run, title_, command_.command_line)));
         file_set files(command_.out);
         files.add("diagnosis.json", diagnosis_json(run.result, data_.id, source_));
         page.add_to(files);
@@ -408,7 +409,9 @@ private:
         told.dataset = command_.dataset;
         told.effects = names_in(holdout::effects_of(answer, run.catalogue));
         told.verbose = command_.verbose;
-        search_task task(of_, told, nullptr);
+        auto bare = of_;
+        bare.disturbances = {};
+        search_task task(bare, told, nullptr);
         work_limit limit(std::min(left(), 0.25 * command_.budget), wanted);
         identify_options options;
         options.strategy = with_ranges(run, task.problem);
@@ -445,6 +448,7 @@ private:
     dataset data_;
     identification_problem problem_;
     std::vector<effect> effects_;
+    std::string title_; ///< what is missing is sought in the model without its disturbances
     holdout kept_;
     diagnosis_options options_;
     diagnosis_source source_;

@@ -16,10 +16,8 @@
 #include <sivid/number/text/joined.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 #include <sivid/paving/least_disturbance.hpp>
-#include <sivid/report/draw/axes.hpp>
-#include <sivid/report/draw/time_plot.hpp>
 #include <sivid/report/number_text.hpp>
-#include <sivid/report/page.hpp>
+#include <sivid/report/stored_page.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +39,40 @@ inline std::vector<std::pair<std::string, double>> scales_from(std::vector<std::
     return result;
 }
 
+/// What was asked, posed, and found.
+struct least_disturbance_answer {
+    using scales = std::vector<std::pair<std::string, double>>;
+    dataset data;
+    allowed_disturbances others; ///< of the model, beside what is asked for
+    identification_problem problem{};
+    disturbance_set set{};
+    disturbance_bound found{};
+    std::vector<disturbance_share> curve{};
+
+    /// @throws bad_request
+    least_disturbance_answer(robot const& r, disturbance_command const& c, scales const& on,
+                             scales const& errors)
+        : data{read_data(r, c.dataset)}, others{r.disturbances} {
+        for (auto const& asked : on) (void)take_out(r, others.equations, asked.first);
+        for (auto const& asked : errors) (void)take_out(r, others.channels, asked.first);
+        problem = posed(r, data, c.effects, others);
+        least_disturbance_options options;
+        options.seconds = c.budget / static_cast<double>(c.curve + 1);
+        options.keep_going = wanted;
+        try {
+            set = disturbance_on(r.model, on, errors);
+            require_valid(set, problem.model);
+            found = least_disturbance(problem, set, options);
+            options.seconds *= static_cast<double>(c.curve);
+            if (c.curve > 0) curve = least_disturbance_curve(problem, set, c.curve, options);
+        } catch (std::invalid_argument const& e) {
+            throw bad_request(e.what());
+        }
+        for (auto const& words : assumptions_of(r, data, c.effects, others, problem.model))
+            found.assumptions.push_back(words);
+    }
+};
+
 /// What is disturbed: names, units and scales.
 template <class Name, class Unit>
 void write_disturbed(json_writer& json, std::string_view what,
@@ -52,20 +84,22 @@ void write_disturbed(json_writer& json, std::string_view what,
 }
 
 /// disturbance.json, sivid-disturbance-1: what is a bound is written outward.
-inline std::string disturbance_json(identification_problem const& problem,
-                                    disturbance_set const& set, disturbance_bound const& found,
-                                    std::string const& dataset) {
+inline std::string disturbance_json(disturbance_command const& c,
+                                    least_disturbance_answer const& a) {
+    auto const& problem = a.problem;
+    auto const& found = a.found;
     auto const& about = problem.model.about;
     json_writer json;
-    json.begin_object().members("format", "sivid-disturbance-1", "dataset", dataset);
+    json.begin_object().members("format", "sivid-disturbance-1", "dataset", a.data.id);
+    write_source(json, c, problem).members("curve", c.curve);
     json.members("time_unit", about.time_unit)
         .named("prior", problem.choice.unknown, problem.prior);
     write_disturbed(
-        json, "equations", set.equations,
+        json, "equations", a.set.equations,
         [&](std::size_t i) { return about.states[i].equation_name(); },
         [&](std::size_t i) { return rate_unit(about.states[i].unit, about.time_unit); });
     write_disturbed(
-        json, "channels", set.channels, [&](std::size_t i) { return about.channels[i].name; },
+        json, "channels", a.set.channels, [&](std::size_t i) { return about.channels[i].name; },
         [&](std::size_t i) { return about.channels[i].unit; });
     json.members("size", found.size);
     json.list("needed", found.needed, [&](disturbed_stretch const& s) {
@@ -170,42 +204,24 @@ inline std::string curve_csv(std::vector<disturbance_share> const& curve) {
     return text;
 }
 
-/// Both ends of each point, as lines: below the dashed one nothing explains, on the full one
-/// something does; between points nothing is said.
-inline report::svg curve_picture(std::vector<disturbance_share> const& curve) {
-    using namespace report;
-    report::range x{0, 0}, y{0, 0};
+inline report::size_curve curve_of(std::vector<disturbance_share> const& curve) {
+    report::size_curve lines;
     for (auto const& p : curve) {
-        double const size =
-            std::isfinite(p.found.size.upper()) ? p.found.size.upper() : p.found.size.lower();
-        x.hi = std::max(x.hi, 1.1 * p.equations * size);
-        y.hi = std::max(y.hi, 1.1 * p.channels * size);
+        auto const add = [&p](std::vector<report::point>& line, double size) {
+            if (std::isfinite(size)) line.push_back({p.equations * size, p.channels * size});
+        };
+        add(lines.first, p.found.size.lower());
+        add(lines.second, p.found.size.upper());
     }
-    axes const frame({"size of equations", "1", x}, {"size of channels", "1", y},
-                     {.title = "Enough (full), not enough (dashed)"});
-    svg out(360, 240, "trade-off of disturbances");
-    frame.open(out);
-    for (bool const upper : {false, true}) {
-        path_data line;
-        for (auto const& p : curve) {
-            double const size = upper ? p.found.size.upper() : p.found.size.lower();
-            if (!std::isfinite(size)) continue;
-            double const at = frame.px(p.equations * size), on = frame.py(p.channels * size);
-            line.empty() ? line.move(at, on) : line.line(at, on);
-            draw_estimate(out, at, on);
-        }
-        out.path(line, upper ? line_after_paint : line_before_paint);
-    }
-    frame.close(out);
-    return out;
+    return lines;
 }
 
-/// What the witness is disturbed by, over time: at most a dozen pictures.
-inline report::figure witness_figure(identification_problem const& problem,
-                                     disturbance_set const& set, disturbance_bound const& found) {
+/// What the witness is disturbed by, over time.
+inline std::vector<std::pair<std::string, report::channel_series>>
+witness_series(identification_problem const& problem, disturbance_set const& set,
+               disturbance_bound const& found) {
     auto const& about = problem.model.about;
-    report::figure all{.title = "What the witness is disturbed by.",
-                       .caption = "With it a validated run explains the data; others may do so."};
+    std::vector<std::pair<std::string, report::channel_series>> all;
     for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
         for (auto const& q : set.equations) {
             auto const& state = about.states[q.index];
@@ -216,8 +232,7 @@ inline report::figure witness_figure(identification_problem const& problem,
             for (auto const& p : found.pieces)
                 if (p.experiment == e && p.equation == q.index)
                     line.after.insert(line.after.end(), {{p.from, p.value}, {p.to, p.value}});
-            if (line.after.empty() || all.panels.size() == 12) continue;
-            all.panels.push_back(draw_time_plot(line, {.title = problem.experiments[e].name}));
+            if (!line.after.empty()) all.emplace_back(problem.experiments[e].name, line);
         }
     }
     return all;
@@ -226,50 +241,25 @@ inline report::figure witness_figure(identification_problem const& problem,
 } // namespace detail
 
 SIVID_DECL int run(robot const& r, disturbance_command const& c) {
-    auto const data = read_data(r, c.dataset);
-    auto const problem = posed(r, data, c.effects, {});
-    disturbance_set set;
-    least_disturbance_options options;
-    disturbance_bound found;
-    std::vector<disturbance_share> curve;
     watch_interrupts();
     progress_line progress(c.quiet);
-    try {
-        set = disturbance_on(r.model, detail::scales_from(c.on, "--on"),
-                             detail::scales_from(c.errors, "--error"));
-        require_valid(set, problem.model);
-        progress.note("bounding the least disturbance of " + data.id);
-        options.seconds = c.budget / static_cast<double>(c.curve + 1);
-        options.keep_going = wanted;
-        found = least_disturbance(problem, set, options);
-        options.seconds *= static_cast<double>(c.curve);
-        if (c.curve > 0) curve = least_disturbance_curve(problem, set, c.curve, options);
-    } catch (std::invalid_argument const& e) {
-        throw bad_request(e.what());
-    }
+    progress.note("bounding the least disturbance");
+    detail::least_disturbance_answer const a(r, c, detail::scales_from(c.on, "--on"),
+                                             detail::scales_from(c.errors, "--error"));
+    auto const& [data, others, problem, set, found, curve] = a;
     progress.finish();
-    for (auto const& words : assumptions_of(r, data, c.effects, {}, problem.model))
-        found.assumptions.push_back(words);
     prepare_folder(c.out);
     file_set files(c.out);
-    files.add("disturbance.json", detail::disturbance_json(problem, set, found, data.id));
+    files.add("disturbance.json", detail::disturbance_json(c, a));
     files.add("disturbance.csv", detail::disturbance_csv(problem, found));
     auto words = detail::disturbance_words(problem, set, found);
     if (auto const next = detail::next_command(r, c, set, found); !next.empty())
         words.push_back("which constants remain with 1.2 times that: " + next + " --out DIR");
-    report::page page({"Least disturbance", title_of(data, c.effects, {}, problem.model),
-                       "How large unknown functions of time beside the model must be"});
-    page.banner(found.witness ? report::outcome::proved : report::outcome::undecided, words.front(),
-                "Bounds hold for all measurable functions of time.");
-    page.plain_words({words.begin() + 1, words.end()});
-    page.section("Over time").add(detail::witness_figure(problem, set, found));
-    if (c.curve > 0)
-        page.section("Equations against channels")
-            .add(report::figure{.panels = {detail::curve_picture(curve)},
-                                .title = "Sizes that are enough together.",
-                                .caption = "Proved at the rings; lines only join them."});
-    page.assumptions(found.assumptions).footer(page_footer(c.command_line));
-    files.add("disturbance.html", page.str());
+    report::disturbance_page(title_of(data, c.effects, others, problem.model), words,
+                             found.witness.has_value(), detail::witness_series(problem, set, found),
+                             detail::curve_of(curve), found.assumptions,
+                             page_footer(c.command_line))
+        .add_to(files);
     if (c.curve > 0)
         files.add("curve.csv", detail::curve_csv(curve));
     else

@@ -111,9 +111,7 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     if (c.scenario.empty() == c.dataset.empty())
         throw bad_request("give a data set or --scenario, one of the two");
     bool const of_data = c.scenario.empty();
-    auto const disturbances = disturbances_from(c.disturbed, c.errors);
-    if (!of_data && !disturbances.empty())
-        throw bad_request("--disturbance, --error: they are allowed for in data; give a data set");
+    auto const disturbances = disturbances_from(r, c.disturbed, c.errors);
     std::string name;
     std::optional<identification_problem> posed_problem;
     if (of_data) {
@@ -121,7 +119,7 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
         name = data.id;
         posed_problem = posed(r, data, {}, disturbances);
     } else {
-        posed_problem = detail::measured(r, c);
+        posed_problem = disturbed(detail::measured(r, c), disturbances);
     }
     auto const& problem = *posed_problem;
     rank_options options;

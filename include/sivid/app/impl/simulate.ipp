@@ -44,6 +44,8 @@ SIVID_DECL int run(robot const& r, describe_command const& c) {
             auto const& e = r.effects[k];
             std::cout << "effect " << e.name << (e.about.empty() ? "" : ": ") << e.about << "\n";
         }
+        if (!c.dot && !r.disturbances.empty())
+            std::cout << "allowed for: " << in_words(r.disturbances, r.model) << "\n";
         return done;
     }
     for (auto const& name : c.unknown)

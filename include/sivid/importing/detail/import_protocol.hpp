@@ -4,7 +4,7 @@
 
 #include <sivid/io/text/json_writer.hpp>
 #include <sivid/io/text/printable_text.hpp>
-#include <sivid/measurement/error_bound.hpp>
+#include <sivid/measurement/bound_candidates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -51,14 +51,15 @@ public:
         }
     };
 
-    struct proposed_bound {
-        std::string quantity, unit, bound; ///< bound: the decimal in the data set
-        std::vector<std::pair<std::string, error_bound_proposal>> scenarios;
+    /// What the fit scenarios say of an error bound.
+    struct suggested_bound {
+        std::string quantity, unit, bound; ///< bound: in the data set; "": stated
+        std::vector<bound_candidate> candidates;
     };
 
     std::string dataset, mapping;
     std::vector<scenario_summary> scenarios;
-    std::vector<proposed_bound> bounds;
+    std::vector<suggested_bound> bounds;
 
     /// Notes of one scenario, field and reason become one.
     void add(kind what, std::string const& scenario, std::string const& field,
@@ -120,24 +121,20 @@ public:
         append_notes(rest, elsewhere);
         if (!rest.empty()) out += "\nwhole logs, and stretches that became no scenario\n" + rest;
         for (auto const& b : bounds) {
-            out += "\nerror bound of " + b.quantity + ", proposed: " + b.bound +
-                   (b.unit.empty() ? "" : " " + b.unit) + "\n";
-            std::size_t shown = 0;
-            for (auto const& [name, p] : b.scenarios) {
-                if (shown++ == most) {
-                    out += "  ... and " + std::to_string(b.scenarios.size() - most) + " more\n";
-                    break;
-                }
-                out += "  " + name + ": ";
-                out += p.refusal.empty()
-                           ? "step " + number(p.quantum) + ", spread " + number(p.spread) +
-                                 ", largest residual " + number(p.largest_residual) + ", " +
-                                 std::to_string(p.support) + " samples, " +
-                                 std::to_string(p.outliers) + " outliers left out\n"
-                           : p.refusal + "\n";
-                for (auto const& a : p.assumptions) out += "    assumed: " + a + "\n";
+            auto const of = b.unit.empty() ? "" : " " + b.unit;
+            out += "\nerror bound of " + b.quantity +
+                   (b.bound.empty() ? " is stated; candidates" : ", proposed: " + b.bound + of) +
+                   "\n";
+            for (auto const& c : b.candidates) {
+                out += "  " + c.from + ": " + (c.bound > 0 ? number(c.bound) + of : "none");
+                if (c.beyond > 0) out += ", worse at most " + number(100 * c.beyond) + " %";
+                out += "\n";
+                for (auto const& a : c.rests_on)
+                    out += (c.bound > 0 ? "    assumed: " : "    ") + a + "\n";
             }
         }
+        if (!bounds.empty())
+            out += "\nwhat each bound decides: identify with this data set and --by-bounds\n";
         return printable_text(out, std::string::npos, true);
     }
 
@@ -162,15 +159,11 @@ public:
             });
             j.end_object();
         });
-        j.list("bounds", bounds, [&](proposed_bound const& b) {
+        j.list("bounds", bounds, [&](suggested_bound const& b) {
             j.begin_object().members("quantity", plain(b.quantity), "unit", plain(b.unit));
-            j.members("bound", b.bound).list("scenarios", b.scenarios, [&](auto const& s) {
-                auto const& p = s.second;
-                j.begin_object(layout::one_line).members("scenario", plain(s.first));
-                j.members("bound", p.bound, "quantum", p.quantum, "spread", p.spread);
-                j.members("largest_residual", p.largest_residual, "support", p.support);
-                j.members("outliers", p.outliers, "refusal", p.refusal);
-                j.list("assumptions", p.assumptions, plain).end_object();
+            j.members("bound", b.bound).list("candidates", b.candidates, [&](auto const& c) {
+                j.begin_object(layout::one_line).members("from", c.from, "bound", c.bound);
+                j.members("beyond", c.beyond).list("rests_on", c.rests_on, plain).end_object();
             });
             j.end_object();
         });

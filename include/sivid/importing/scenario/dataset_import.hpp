@@ -7,11 +7,13 @@
 #include <sivid/importing/scenario/detail/scenario_import.hpp>
 #include <sivid/importing/scenario/detail/start_proposal.hpp>
 #include <sivid/importing/table/recorded_files.hpp>
+#include <sivid/number/text/joined.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -138,43 +140,63 @@ private:
                         "rename one: stretches of a log are numbered -1, -2, ..."};
     }
 
-    /// Proposes the open bounds, once for each quantity: the largest of all fit scenarios, since it
-    /// is one instrument and the data held out must not enter.
+    /// Candidates for bounds, and the open ones, once for each quantity: of all fit scenarios, as
+    /// it is one instrument and the data held out must not enter.
     void propose(std::vector<imported_quantity> const& list, bool inputs) {
         for (auto const& q : list) {
-            if (q.mapping->error.from != bound_source::kind::proposed) continue;
-            if (proposed_.count({inputs, q.mapping->name}) > 0) continue;
-            import_protocol::proposed_bound note{q.mapping->name, q.mapping->unit, "", {}};
-            double bound = 0;
+            auto const& name = q.mapping->name;
+            if (q.mapping->error.from == bound_source::kind::none) continue;
+            if (!suggested_.insert({inputs, name}).second) continue;
+            import_protocol::suggested_bound note{name, q.mapping->unit, "", {}};
+            quantity_mapping const* open = nullptr;
+            std::vector<recorded_series> records;
             for (auto const& other : open_) {
-                if (other.role != scenario_role::fit) continue;
                 for (auto const& same : inputs ? other.inputs : other.channels) {
-                    if (same.mapping->name != q.mapping->name ||
-                        same.mapping->error.from != bound_source::kind::proposed)
-                        continue;
-                    note.scenarios.emplace_back(other.name, proposal_for(same));
-                    warn(other, q.mapping->name, note.scenarios.back().second);
-                    bound = std::max(bound, note.scenarios.back().second.bound);
+                    if (same.mapping->name != name) continue;
+                    bool const proposed = same.mapping->error.from == bound_source::kind::proposed;
+                    if (proposed) open = same.mapping;
+                    if (other.role != scenario_role::fit) continue;
+                    records.push_back(series_of(same, other));
+                    if (proposed) warn(other, records.back(), name);
                 }
             }
-            if (!(bound > 0)) {
-                std::string why;
-                for (auto const& [name, p] : note.scenarios)
-                    why += (why.empty() ? ": " : "; ") + p.refusal + " (" + name + ")";
-                throw input_error{q.mapping->error.place,
-                                  text_of("no error bound of ", in_quotes(q.mapping->name),
-                                          " can be proposed from the fit scenarios", why),
-                                  "state it as a number"};
+            note.candidates = error_bound_candidates(records);
+            if (open != nullptr) {
+                auto const near =
+                    std::ranges::find(note.candidates, "neighbours", &bound_candidate::from);
+                bool const known = near != note.candidates.end();
+                if (!known || !(near->bound > 0))
+                    throw input_error{
+                        open->error.place,
+                        text_of("no error bound of ", in_quotes(name),
+                                " can be proposed from the fit scenarios: ",
+                                known ? joined(near->rests_on, "; ") : "there are none"),
+                        "state it as a number"};
+                auto const rounded = rounded_up(exact_decimal::shortest(near->bound), 3);
+                note.bound = rounded.text();
+                proposed_[{inputs, name}] = rounded;
             }
-            auto const rounded = rounded_up(exact_decimal::shortest(bound), 3);
-            note.bound = rounded.text();
-            proposed_[{inputs, q.mapping->name}] = rounded;
             result_.protocol.bounds.push_back(std::move(note));
         }
     }
+    /// With the inputs of its scenario for the command.
+    [[nodiscard]] static recorded_series series_of(imported_quantity const& q,
+                                                   open_scenario const& s) {
+        recorded_series result{s.name, {}, {}, {}};
+        for (auto const& sample : q.samples) {
+            result.times.push_back(*nearest(sample.time));
+            result.values.push_back(*nearest(sample.reading.value));
+        }
+        for (auto const& u : s.inputs)
+            for (auto const& sample : u.samples)
+                result.command.insert(result.command.end(),
+                                      {*nearest(sample.time), *nearest(sample.reading.value)});
+        return result;
+    }
 
     /// Says where a proposed bound leaves more outliers than the data set allows.
-    void warn(open_scenario const& s, std::string const& name, error_bound_proposal const& p) {
+    void warn(open_scenario const& s, recorded_series const& r, std::string const& name) {
+        auto const p = propose_error_bound(r.times, r.values);
         if (p.outliers > mapping_.max_outlier_fraction.times(s.reading_count()).floor())
             result_.protocol.add(
                 kind::assumed, s.stretch, name,
@@ -391,6 +413,7 @@ private:
     std::vector<open_scenario> open_;
     std::map<mapped_start const*, std::pair<bool, std::string>> unknown_starts_; ///< is one known?
     std::map<std::pair<bool, std::string>, exact_decimal> proposed_;
+    std::set<std::pair<bool, std::string>> suggested_;
     imported_dataset result_;
 };
 

@@ -2,7 +2,9 @@
 #ifndef SIVID_TEXT_DETAIL_MODEL_READER_HPP
 #define SIVID_TEXT_DETAIL_MODEL_READER_HPP
 
+#include <sivid/io/allowed_disturbances.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
+#include <sivid/model/disturbance.hpp>
 #include <sivid/model/implicit_model.hpp>
 #include <sivid/text/detail/effect_reader.hpp>
 #include <sivid/text/detail/model_names.hpp>
@@ -50,6 +52,13 @@ public:
         effect_reader effects(source_, names_, result_.model, constant_ranges());
         if (auto const section = whole_.section("effect")) result_.effects = effects.read(*section);
         require_used();
+        auto const rate = [this](model_description::state const& s) {
+            return rate_unit(s.unit, about().time_unit);
+        };
+        auto const own = [](model_description::item const& y) { return y.unit; };
+        auto& allowed = result_.disturbances;
+        allowed.equations = read_allowed("disturbance", "state", about().states, rate);
+        allowed.channels = read_allowed("error", "output", about().channels, own);
         return std::move(result_);
     }
 
@@ -61,7 +70,7 @@ private:
 
     void read_head() {
         whole_.allow({"format", "name", "about", "time", "states", "inputs", "constants", "let",
-                      "equations", "outputs", "effect"});
+                      "equations", "outputs", "effect", "disturbance", "error"});
         auto const format = whole_.text("format");
         if (!format || *format != "sivid-model-1")
             source_->fail(format ? whole_.find("format")->value : 0,
@@ -452,6 +461,41 @@ private:
                 source_->fail(item.position, "'" + name + "' stands in no formula",
                               "use it, or leave it out");
         }
+    }
+
+    /// Bounds of what is unknown beside these equations or outputs.
+    template <class Item, class Unit>
+    [[nodiscard]] allowed_disturbances::bounds
+    read_allowed(std::string const& table, std::string const& what, std::vector<Item> const& all,
+                 Unit const& unit_of) {
+        allowed_disturbances::bounds result;
+        auto const section = whole_.section(table);
+        if (!section) return result;
+        std::vector<std::string> names;
+        for (auto const& x : all) names.push_back(x.name);
+        for (auto const& e : section->entries()) {
+            auto const at = std::find(names.begin(), names.end(), e.name);
+            if (at == names.end())
+                source_->fail(e.key, in_quotes(e.name) + " is no " + what,
+                              name_hint(e.name, names));
+            auto const index = static_cast<std::size_t>(at - names.begin());
+            auto q = section->quantity(e);
+            if (!q.in) q.in = unit("1");
+            if (q.is_range || !q.lower.is_positive())
+                source_->fail(q.position, "a number above 0 is needed here",
+                              "write the largest size, as in \"0.2 " + unit_of(all[index]) + "\"");
+            auto const most =
+                bounds_in(*source_, q, unit_of(all[index]), "the bound of '" + e.name + "'").second;
+            disturbance_set one;
+            (table == "error" ? one.channels : one.equations).push_back({index, 1});
+            try {
+                require_valid(one, result_.model);
+            } catch (std::invalid_argument const& error) {
+                source_->fail(e.key, error.what(), "");
+            }
+            result.emplace_back(e.name, rounded_up(most, unit_conversion::digits));
+        }
+        return result;
     }
 
     struct delay {

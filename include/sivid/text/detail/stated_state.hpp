@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace sivid::text_detail {
 
@@ -31,9 +32,11 @@ namespace sivid::text_detail {
     return text;
 }
 
-/// A stated quantity in a unit: its bounds rounded outward, and its middle.
-[[nodiscard]] inline literal converted(model_source const& source, stated_quantity const& q,
-                                       std::string const& to, std::string const& what) {
+/// Decimals that a stated quantity lies between, in a unit.
+[[nodiscard]] inline std::pair<exact_decimal, exact_decimal> bounds_in(model_source const& source,
+                                                                       stated_quantity const& q,
+                                                                       std::string const& to,
+                                                                       std::string const& what) {
     auto const ratio = q.in ? q.in->in(unit(to)) : unit::ratio{};
     auto const c = ratio ? unit_conversion::of(*ratio) : std::nullopt;
     if (!c)
@@ -41,15 +44,20 @@ namespace sivid::text_detail {
                     what + " has the unit " + unit_words(unit(to)) + ", and this is in " +
                         unit_words(*q.in),
                     "write it in another unit");
+    if (ratio->is_one()) return {q.lower, q.upper};
     auto const r = (*c)(q.lower, q.upper);
-    bool const as_it_is = ratio->is_one();
-    auto const bounds = as_it_is ? enclose(q.lower, q.upper)
-                        : r      ? enclose(r->value - r->rounding, r->value + r->rounding)
-                                 : std::nullopt;
+    if (!r) source.fail(q.position, "the number is beyond all doubles", "use another unit");
+    return {r->value - r->rounding, r->value + r->rounding};
+}
+
+/// A stated quantity in a unit: its bounds rounded outward, and its middle.
+[[nodiscard]] inline literal converted(model_source const& source, stated_quantity const& q,
+                                       std::string const& to, std::string const& what) {
+    static auto const half = *exact_decimal::parse("0.5");
+    auto const [lower, upper] = bounds_in(source, q, to, what);
+    auto const bounds = enclose(lower, upper);
     if (!bounds) source.fail(q.position, "the number is beyond all doubles", "use another unit");
-    auto const middle = q.is_range ? std::optional(mid(*bounds))
-                        : as_it_is ? nearest(q.lower)
-                                   : nearest(r->value);
+    auto const middle = q.is_range ? std::nullopt : nearest((lower + upper).times(half));
     return {*bounds, middle.value_or(mid(*bounds))};
 }
 

@@ -116,16 +116,6 @@ TEST_CASE("a column of error bounds") {
     CHECK(noted(r.protocol, "not above 0") == std::vector<std::size_t>{4, 5});
 }
 
-TEST_CASE("a bound is proposed from the converted readings") {
-    quantity_mapping q;
-    q.name = "y";
-    q.conversion.factor_lower = q.conversion.factor_upper = dec("0.5");
-    q.error.from = bound_source::kind::proposed;
-    std::vector<std::vector<std::string>> rows;
-    for (int i = 0; i < 60; ++i) rows.push_back({std::to_string(i * i / 7)});
-    CHECK_THAT(proposal_for(read(q, rows).quantity).quantum, WithinRel(0.5, 1e-9));
-}
-
 TEST_CASE("exact inputs are said to be exact, and overflow is refused") {
     quantity_mapping q;
     q.name = "u";

@@ -45,16 +45,6 @@ struct imported_quantity {
     }
 };
 
-/// What the readings say about their own error bound.
-[[nodiscard]] inline error_bound_proposal proposal_for(imported_quantity const& q) {
-    std::vector<double> times, values;
-    for (auto const& sample : q.samples) {
-        times.push_back(*nearest(sample.time));
-        values.push_back(*nearest(sample.reading.value));
-    }
-    return propose_error_bound(times, values);
-}
-
 /// Takes one quantity out of a recorded table: possible readings, counts and angles followed beyond
 /// their range, units, error bounds of a column.
 class quantity_import {
