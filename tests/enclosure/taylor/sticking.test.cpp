@@ -152,3 +152,16 @@ TEST_CASE("boxes that stick side by side, each at its own times, hold every moti
     }
     CHECK(reached > 800); // of 960
 }
+
+TEST_CASE("what sticks needs no higher order than its options allow") {
+    auto const f = support::flow_of(
+        support::model_of({1, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{-(p[0] * sign(x[0]))};
+        }));
+    for (std::size_t const order : {1u, 2u, 4u}) {
+        parametric_flow<> run(*f, for_span(enclosure_options{.order = order}, 1), 0, 0);
+        run.begin(0, box{interval(0.0)}, box{interval(1.0)});
+        while (run.time() < 1) REQUIRE(run.step(1));
+        CHECK(mag(run.set().hull()[0]) < 1e-100);
+    }
+}

@@ -509,7 +509,11 @@ void parametric_flow<Model>::accept(trial const& t) {
     set_.reduce(most_columns(n), end.lost, running_);
     set_.append(end.lost);
     set_.measure();
-    for (std::size_t k = 0; k < at_rest.size(); ++k) set_.rest(at_rest[k], sticking_[k].state);
+    for (std::size_t k = 0; k < at_rest.size(); ++k) {
+        auto& s = sticking_[k];
+        set_.rest(at_rest[k], s.state);
+        s.until = side_by_side::select(at_rest[k], set_.time, s.until);
+    }
     adapt_flow_order(moved, t.order, t.flow_order, added);
     if (t.smooth()) adapt_order(moved, length, clamped);
     for (std::size_t i = 0; i < n && perturbed_; ++i) {

@@ -110,6 +110,7 @@ public:
             throw std::invalid_argument("enclosure_options: order must be at least 1");
         if (f.uncertain()) perturbed_.emplace(f, *column_shape_);
         disturbed_.resize(f.states());
+        order_ = std::min(order_, options_.order);
         for (auto const& r : f.at_rest())
             sticking_.push_back({r.state, r.equations.get(), nullptr});
     }
