@@ -258,7 +258,7 @@ private:
         if (tired || !split(rest, region, &known)) first.gave_up = true;
     }
 
-    /// A group at the median of its widest side, a box alone where its outputs spread most.
+    /// A group in the middle of its widest side, a box alone where its outputs spread most.
     /// @returns false where that is not possible
     bool split(group& pieces, box const& region, knowledge const* known) {
         bool const alone = pieces.size() == 1;
@@ -275,11 +275,27 @@ private:
             low.push_back({std::move(a), pieces[0].of});
             high.push_back({std::move(b), pieces[0].of});
         } else {
-            auto const at = [j = side.value_or(0)](piece const& p) { return mid(p.set[j]); };
-            auto const half = pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2);
-            std::ranges::nth_element(pieces, half, {}, at);
-            low.assign(std::make_move_iterator(pieces.begin()), std::make_move_iterator(half));
-            high.assign(std::make_move_iterator(half), std::make_move_iterator(pieces.end()));
+            auto const j = side.value_or(0);
+            double const middle = mid(region[j]);
+            for (auto& p : pieces) {
+                auto const& own = p.set[j];
+                bool const across = own.lower() < middle && middle < own.upper() &&
+                                    width(own) > 0.5 * width(region[j]);
+                if (across) { // with such pieces no region shrinks
+                    auto [a, b] = bisect(p.set, j, middle);
+                    ++p.of->left;
+                    low.push_back({std::move(a), p.of});
+                    high.push_back({std::move(b), p.of});
+                } else {
+                    (mid(own) <= middle ? low : high).push_back(std::move(p));
+                }
+            }
+            if (low.empty()) std::swap(low, high);
+            if (high.empty()) { // all of them on one side
+                auto const half = low.begin() + static_cast<std::ptrdiff_t>(low.size() / 2);
+                high.assign(std::make_move_iterator(half), std::make_move_iterator(low.end()));
+                low.erase(half, low.end());
+            }
         }
         settle(std::move(low));
         settle(std::move(high));
