@@ -170,8 +170,7 @@ inline bool may_include_approximate(std::string_view other, std::string_view inc
         {"sivid/cluster/diagnose.hpp", {"candidate/screening.hpp"}},
         {"sivid/report/impl/identification_report.ipp", {"simulate/simulate.hpp"}},
         {"sivid/verifier/claim/detail/paving_check.hpp", {"fit/detail/counterexample.hpp"}},
-        {"sivid/verifier/impl/diagnosis_check.ipp", {"fit/detail/counterexample.hpp"}},
-        {"sivid/verifier/claim/detail/witness_checks.hpp", {"fit/detail/counterexample.hpp"}}};
+        {"sivid/verifier/impl/diagnosis_check.ipp", {"fit/detail/counterexample.hpp"}}};
     std::string_view const floor = "sivid/approximate/";
     if (!starts_with(other, floor) || starts_with(includer, floor)) return true;
     auto const what = other.substr(floor.size());

@@ -367,7 +367,7 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     };
     // A certificate that is wrong or missing costs time, one that cannot be read is bad input.
     auto const certificates = text_of(out / "certificates.csv");
-    CHECK_THAT(whole.out, ContainsSubstring(" by the weights of the result"));
+    CHECK_THAT(whole.out, ContainsSubstring(" steps proved by their weights"));
     folder.write("out/certificates.csv", certificates.substr(0, certificates.find("\nsplit") + 1));
     CHECK(check({"--all", "--budget", "600"}).code == 0);
     folder.write("out/certificates.csv", "step,of,end,at,weights\nempty,,,,0:0:1e9\n");
@@ -396,18 +396,19 @@ TEST_CASE("check verifies what identify wrote, and refutes what was changed sinc
     };
     tampered("result.json", "\"Sg\": 0.0", "\"Sg\": 0.07", "it does not explain S3");
     tampered("result.json", "\"u\": 2", "\"u\": 3", "not allowed");
-    tampered("result.json", "\"consistent\"", "\"undecided\"", "does not follow");
-    tampered("result.json", "\"Sg\": {\"hull\": [0.03", "\"Sg\": {\"hull\": [0.02", "hull of Sg");
+    tampered("result.json", "\"consistent\"", "\"undecided\"", "/verdict is undecided");
+    tampered("result.json", "\"Sg\": {\"hull\": [0.03", "\"Sg\": {\"hull\": [0.02",
+             "/parameters/Sg/hull/0");
     tampered("boxes.csv",
              csv.find("\nundecided,") != std::string::npos ? "\nundecided," : "\npending,",
-             "\ninside,", "is not the one stated");
+             "\ninside,", "/files/boxes.csv");
     auto const first = csv.find('\n') + 1;
     tampered("boxes.csv", csv.substr(first, csv.find('\n', first) + 1 - first), "",
-             "is not the one stated");
+             "/files/boxes.csv");
 
     auto const second = products.find('\n') + 1;
     tampered("products.csv", products.substr(second, products.find('\n', second) + 1 - second), "",
-             "is not the one stated");
+             "/files/products.csv");
     CHECK_THAT(good.out, ContainsSubstring("inside products") && !ContainsSubstring("not the"));
     fs::remove(out / "products.csv");
     CHECK(check().code == 2);

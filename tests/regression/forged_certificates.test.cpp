@@ -161,7 +161,6 @@ TEST_CASE("the tolerance that a result states proves nothing by itself") {
         identification_check_options options;
         options.all = true;
         options.seconds = 60;
-        CHECK(overall(identification_check<interval, interval>(problem, result, options)()) ==
-              outcome::verified);
+        CHECK(overall(check_identification(problem, result, options)) == outcome::verified);
     }
 }

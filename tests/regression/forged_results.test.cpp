@@ -5,11 +5,12 @@
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/paving/identify.hpp>
-#include <sivid/verifier/claim/detail/stored_claims.hpp>
+#include <sivid/verifier/claim/detail/identification_check_work.hpp>
 #include <sivid/verifier/identification_check.hpp>
 
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
+#include "verifier/forgery.hpp"
 
 #ifdef SIVID_HAS_MPFI
 #include <sivid/verifier/mp_identification_check.hpp>
@@ -38,29 +39,11 @@ outcome checked(identification_problem const& problem, stored_identification con
 #ifdef SIVID_HAS_MPFI
     return overall(check_by_proven_functions(problem, stored, options));
 #else
-    return overall(identification_check<interval, interval>(problem, stored, options)());
+    return overall(check_identification(problem, stored, options));
 #endif
 }
 
-/// All that follows from the rows, as a forger adapts it.
-void adapt(identification_problem const& problem, stored_identification& s) {
-    interval inner{0.0}, outer{0.0};
-    s.stated_rows = {{"inside", 0}, {"undecided", 0}, {"pending", 0}};
-    for (auto const& row : s.rows) {
-        auto const v = relative_volume(row.set, problem.prior);
-        outer = interval_traits<interval>::add(outer, v);
-        if (row.verdict == box_verdict::inside) inner = interval_traits<interval>::add(inner, v);
-        ++s.stated_rows[std::string{to_string(row.verdict)}];
-    }
-    s.inner = inner;
-    s.outer = outer;
-    for (std::size_t j = 0; j < s.parameters.size(); ++j) {
-        auto range = interval_traits<interval>::empty();
-        for (auto const& row : s.rows) range = hull(range, row.set[j]);
-        s.parameters[j].range = range;
-    }
-    s.stated_files = s.files;
-}
+using io_support::adapt;
 
 } // namespace
 
@@ -80,13 +63,10 @@ TEST_CASE("consistent data said to be inconsistent are refuted for every seed") 
         if (kind == 2) problem.prior[1] = interval(0.5, std::nextafter(0.5, 1.0)); // a decimal
         auto forged = io_support::stored_result(problem).read();
         forged.verdict = verdict::inconsistent;
-        forged.grounds = to_string(verdict_grounds::excluded_boxes);
         forged.reason = stop_reason::decided;
         forged.witness.reset();
         forged.rows.clear();
         forged.products.reset();
-        forged.combinations.clear();
-        forged.files.erase("products.csv");
         adapt(problem, forged);
         for (std::uint64_t seed = 1; seed <= 7; ++seed) {
             CAPTURE(kind, seed);
@@ -129,40 +109,38 @@ TEST_CASE(
             return checked(problem, bad) == outcome::refuted;
         };
         CAPTURE(reduced);
-        CHECK(refuted([](auto& s) { s.assumptions.clear(); }));
-        CHECK(refuted([](auto& s) { s.assumptions = {"inputs within their stated errors"}; }));
-        CHECK(refuted([](auto& s) { s.assumptions.push_back("the moon is full"); }));
+        CHECK(refuted([](auto& s) { s.stated.erase("/assumptions/0"); }));
+        CHECK(refuted([](auto& s) { s.stated["/assumptions/0"] = "inputs within stated errors"; }));
+        CHECK(refuted([](auto& s) { s.stated["/assumptions/1"] = "the moon is full"; }));
         for (int k = 0; !to_string(static_cast<stop_reason>(k)).empty(); ++k) {
             auto const other = static_cast<stop_reason>(k);
             if (other == good.reason) continue;
             CAPTURE(to_string(good.reason), to_string(other));
             auto bad = good;
             bad.reason = other;
-            auto const prior = reduced ? box{interval(0.125, 2.0)} : problem.prior;
-            auto const found = check_stop(bad, prior).found;
-            // Nothing tells whether somebody ended a search in which boxes wait.
-            bool const no_trace = found == outcome::nothing && other == stop_reason::cancelled;
+            // Nothing tells what ended a search in which boxes wait.
+            auto const& rows = good.products ? good.products->rows : good.rows;
+            bool const waits =
+                std::ranges::count(rows, box_verdict::pending, &paved_box::verdict) > 0;
+            auto const found = check_stop(bad).found;
+            bool const no_trace = found == outcome::nothing && waits;
             CHECK((found == outcome::refuted || no_trace));
             CHECK((checked(problem, bad) == outcome::refuted || no_trace));
         }
-        auto unstated = good;
-        unstated.effort->sufficient_ratio.reset();
-        if (good.reason == stop_reason::inside_share)
-            CHECK(checked(problem, unstated, true) == outcome::undecided);
         REQUIRE(good.witness);
         CHECK(refuted([](auto& s) { s.witness.reset(); }));
-        CHECK(refuted([](auto& s) { s.grounds = "inside boxes"; }));
-        CHECK(refuted([](auto& s) { s.files["boxes.csv"][0] = 'x'; }));
+        CHECK(refuted([](auto& s) { s.stated["/verdict_rests_on"] = "inside boxes"; }));
+        CHECK(refuted([](auto& s) { s.stated["/files/boxes.csv"][0] = 'x'; }));
         CHECK(refuted([](auto& s) {
-            s.stated_files.erase("boxes.csv");
-            s.stated_files["x"];
+            s.stated.erase("/files/boxes.csv");
+            s.stated["/files/x"];
         }));
         // Where nothing is stated, nothing is verified.
         auto silent = good;
-        silent.stated_files.clear();
+        std::erase_if(silent.stated, [](auto const& m) { return m.first.starts_with("/files"); });
         CHECK(checked(problem, silent, true) == outcome::undecided);
         silent = good;
-        silent.grounds.clear();
+        silent.stated.erase("/verdict_rests_on");
         CHECK(checked(problem, silent, true) == outcome::undecided);
     }
 }
@@ -278,9 +256,10 @@ TEST_CASE("what contradicts the data is not consistent by a volume that nothing 
     REQUIRE(stored.verdict == verdict::inconsistent);
     CHECK(checked(problem, stored, true) == outcome::verified);
     stored.verdict = verdict::consistent;
-    stored.grounds = to_string(verdict_grounds::inside_boxes);
-    for (double const much : {1e-310, 1e-301, 1e-12}) {
-        stored.inner = interval(much);
+    stored.stated["/verdict"] = "consistent";
+    stored.stated["/verdict_rests_on"] = to_string(verdict_grounds::inside_boxes);
+    for (auto const* const much : {"1e-310", "1e-301", "1e-12"}) {
+        stored.stated["/volume/inner/0"] = stored.stated["/volume/inner/1"] = much;
         CHECK(checked(problem, stored, true) == outcome::refuted);
     }
 }

@@ -20,7 +20,7 @@ TEST_CASE("the checks in the types of MPFI and in doubles find the same of a sma
     options.seconds = 60;
     std::size_t told = 0;
     auto const tell = [&told](check_finding const&) { ++told; };
-    auto const doubles = identification_check<interval, interval>(problem, stored, options)(tell);
+    auto const doubles = check_identification(problem, stored, options, tell);
     auto const proven = check_by_proven_functions(problem, stored, options, tell);
     auto const multiprecision = check_in_multiprecision(problem, stored, options, tell);
     CHECK(told == doubles.size() + proven.size() + multiprecision.size());

@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/models.hpp"
 #include "support/products.hpp"
+#include "verifier/forgery.hpp"
 
 #include <sivid/decision/experiment_design.hpp>
 #include <sivid/decision/prediction.hpp>
@@ -54,17 +55,6 @@ struct prepared {
     }
 };
 
-/// Counts and combinations that go with the rows of products as they are now.
-void adapt(sivid::stored_identification& stored) {
-    auto& own = *stored.products;
-    own.stated_rows = {{"inside", 0}, {"undecided", 0}, {"pending", 0}};
-    auto range = sivid::interval_traits<sivid::interval>::empty();
-    for (auto const& row : own.rows) {
-        ++own.stated_rows[std::string{to_string(row.verdict)}];
-        range = hull(range, row.set[0]);
-    }
-    stored.combinations[0].range = range;
-}
 bool names(std::vector<std::string> const& lines, std::string const& words) {
     return std::any_of(lines.begin(), lines.end(),
                        [&](auto const& l) { return l.find(words) != std::string::npos; });
@@ -178,10 +168,9 @@ TEST_CASE("inside boxes and a witness that were forged refute nothing") {
     for (auto* rows : {&stored.rows, &stored.products->rows}) {
         for (auto& row : *rows) row.verdict = sivid::box_verdict::inside;
     }
-    stored.stated_rows.clear();
     stored.rows = {{t.problem.prior, sivid::box_verdict::inside}};
     stored.products->rows = {{{sivid::interval(0.125, 2.0)}, sivid::box_verdict::inside}};
-    adapt(stored);
+    io_support::adapt(t.problem, stored);
     stored.witness->parameters["a"] = 2;
     stored.witness->parameters["b"] = 1;
     auto const says = t.verified("x at 1 > 1", stored); // violated for a b > 0.69
@@ -196,7 +185,7 @@ TEST_CASE("boxes that were not decided count") {
     auto stored = t.result.read();
     CHECK(t.verified("x at 1 > 1", stored).answer == answer::proved);
     stored.products->rows.push_back({{sivid::interval(0.8, 0.9)}, sivid::box_verdict::undecided});
-    adapt(stored);
+    io_support::adapt(t.problem, stored);
     auto const holds = [&] {
         auto const p = t.predicted(stored);
         return std::any_of(p->problem.sets.begin(), p->problem.sets.end(),
@@ -207,7 +196,7 @@ TEST_CASE("boxes that were not decided count") {
     CHECK(t.verified("x at 1 > 1", stored).answer == answer::proved);
     // What is said to be excluded does not.
     stored.products->rows.back().verdict = sivid::box_verdict::outside;
-    adapt(stored);
+    io_support::adapt(t.problem, stored);
     CHECK_FALSE(holds());
     CHECK(t.verified("x at 1 > 1", stored).answer == answer::proved);
 }
@@ -216,7 +205,7 @@ TEST_CASE("undecided boxes count where the measurements are not heard") {
     prepared t;
     auto stored = t.result.read();
     stored.products->rows.push_back({{sivid::interval(0.8, 0.9)}, sivid::box_verdict::undecided});
-    adapt(stored);
+    io_support::adapt(t.problem, stored);
     auto model = t.problem.model;
     auto const what = sivid::parse_requirement("x at 1 > 1", model, 1);
     auto const p = sivid::predict_from(t.problem, stored, model, what.margins, prepared::request(),
@@ -229,7 +218,7 @@ TEST_CASE("undecided boxes count where the measurements are not heard") {
     CHECK(sivid::predict(deaf).channels[0].low.back() <= 2 * std::exp(-0.9));
     // Without a witness that is proved the measurements say nothing: no parameter may meet them.
     stored.witness.reset();
-    stored.grounds = to_string(sivid::verdict_grounds::inside_boxes);
+    io_support::adapt(t.problem, stored);
     auto const q = t.predicted(stored);
     REQUIRE(q->problem.measured);
     CHECK(q->problem.measured(q->problem.around(), nullptr).known.empty());
@@ -295,14 +284,10 @@ TEST_CASE("without a parameter there is nothing to say") {
     prepared t;
     auto stored = t.result.read();
     stored.verdict = sivid::verdict::inconsistent;
-    stored.grounds.clear();
     stored.witness.reset();
     stored.rows.clear();
-    stored.stated_rows.clear();
     stored.products.reset();
-    stored.combinations.clear();
-    for (auto& p : stored.parameters) p.range = sivid::interval_traits<sivid::interval>::empty();
-    stored.inner = stored.outer = sivid::interval(0.0);
+    io_support::adapt(t.problem, stored);
     CHECK_THROWS_WITH(t.verified("x at 1 > 1", stored), ContainsSubstring("no parameter is left"));
 }
 
@@ -321,6 +306,7 @@ TEST_CASE("outliers that the identification allowed count for a witness, too") {
         sivid::predict_from(strict, other, model, what.margins, prepared::request(), "result.json"),
         ContainsSubstring("not the problem"));
     other.problem = sivid::problem_digest(strict);
+    io_support::adapt(strict, other);
     auto const p =
         sivid::predict_from(strict, other, model, what.margins, prepared::request(), "result.json");
     CHECK(sivid::verify(p->problem, what, p->feasible, {.seconds = 2}).answer == answer::open);
@@ -344,7 +330,7 @@ TEST_CASE("a result of another problem is refused, and one that does not say of 
     silent.problem.clear();
     CHECK_THROWS_WITH(t.predicted(silent), ContainsSubstring("earlier version"));
     silent = stored;
-    silent.stated_files.clear();
+    std::erase_if(silent.stated, [](auto const& s) { return s.first.starts_with("/files"); });
     CHECK_THROWS_WITH(t.predicted(silent), ContainsSubstring("SHA-256"));
     silent = stored;
     silent.assumptions = {"inputs as they please"};
@@ -358,13 +344,12 @@ TEST_CASE("products that were cut to what suits are refused") {
     auto cut = good; // what is left, all with a b > 0.512, says that it holds
     std::erase_if(cut.products->rows, [](auto const& row) { return row.set[0].lower() < 0.512; });
     REQUIRE_FALSE(cut.products->rows.empty());
-    cut.products->stated_rows.clear();
     CHECK_THROWS_WITH(t.verified("x at 1 < 1.2", cut), ContainsSubstring("contradicts itself"));
-    auto const range = cut.combinations[0].range;
-    adapt(cut);
-    cut.combinations[0].range = range;
+    auto const before = cut.stated;
+    io_support::adapt(t.problem, cut);
+    cut.stated["/combinations/0/hull/0"] = before.at("/combinations/0/hull/0");
     CHECK_THROWS_WITH(t.verified("x at 1 < 1.2", cut), ContainsSubstring("contradicts itself"));
-    adapt(cut);
+    io_support::adapt(t.problem, cut);
     CHECK_THROWS_WITH(t.verified("x at 1 < 1.2", cut), ContainsSubstring("contradicts itself"));
     auto far = good;
     far.witness->parameters["a"] = 0.5;
@@ -382,7 +367,6 @@ TEST_CASE("boxes that were cut to what suits are refused") {
     far.witness->parameters["a"] = 1.9;
     CHECK_THROWS_WITH(t.predicted(far), ContainsSubstring("the witness lies in no box"));
     cut.rows.erase(cut.rows.begin());
-    cut.stated_rows.clear();
     CHECK_THROWS_WITH(t.predicted(cut), ContainsSubstring("contradicts itself"));
 }
 
@@ -391,6 +375,7 @@ TEST_CASE("a budget of outliers is an assumption, and not for all measurements")
     auto stored = t.result.read();
     t.problem.experiments[0].outliers = 2; // of six; the result's own problem allowed none
     stored.problem = sivid::problem_digest(t.problem);
+    io_support::adapt(t.problem, stored);
     auto r = prepared::request();
     r.stated_outliers["run"] = 0;
     auto model = t.problem.model;
@@ -467,6 +452,14 @@ TEST_CASE("what is reached is not said of products that no parameter reaches") {
         sivid::predict_from(problem, stored.read(), model, {goal.value}, request, "result.json");
     REQUIRE(p->in_products);
     REQUIRE(p->problem.reached.has_value());
+    REQUIRE_FALSE(p->problem.reached->empty());
+    for (auto const& r : *p->problem.reached) // p0 p1 and p1 p2 have a ratio of p0 / p2
+        for (double const share : {0.0, 0.5, 1.0})
+            for (double const other : {0.0, 0.5, 1.0}) {
+                double const w = r[0].lower() + share * width(r[0]);
+                double const z = r[1].lower() + other * width(r[1]);
+                CHECK(std::max(w, z) <= 1.2 * std::min(w, z) * (1 + 1e-12));
+            }
     CHECK(sivid::predict(p->problem).excess > 1e300);
     // (1, 1, 1.2) and (1.2, 1, 1) explain the same data where errors are 0.11: nothing is told.
     auto const promised = sivid::promise_widths(

@@ -7,10 +7,4 @@
 #include <sivid/verifier/impl/identification_check.ipp>
 #include <sivid/verifier/impl/predict_from.ipp>
 
-namespace sivid {
-
-template class identification_check<interval, interval>;
-
-} // namespace sivid
-
 #endif

@@ -47,6 +47,9 @@ struct explaining_motion {
     std::vector<std::vector<interval>> outputs;
 };
 
+/// Least number of steps of each tube, so that pictures are smooth; tables of outputs rest on it.
+inline constexpr std::size_t motion_pieces = 240;
+
 /// Encloses the motions of the parameters that best show why the data are consistent: the largest
 /// inside box (or the largest part around its middle whose tube alone shows it), else the witness,
 /// else the best guess.
@@ -59,7 +62,15 @@ struct explaining_motion {
 ///        the knots of the inputs and the measurements ask for
 [[nodiscard]] SIVID_DECL std::optional<explaining_motion>
 find_explaining_motion(identification_problem const& problem, identification const& found,
-                       std::size_t pieces = 240, std::function<bool()> const& keep_going = nullptr);
+                       std::size_t pieces = motion_pieces,
+                       std::function<bool()> const& keep_going = nullptr);
+
+/// Encloses the motions of some parameters, and their outputs at the measurements.
+/// @param starts  one box per experiment
+[[nodiscard]] SIVID_DECL explaining_motion
+enclose_motion(identification_problem const& problem, motion_source source, box parameters,
+               std::vector<box> starts, std::size_t pieces = motion_pieces,
+               std::function<bool()> const& keep_going = nullptr);
 
 } // namespace sivid
 

@@ -12,8 +12,8 @@ namespace sivid {
 
 /// Reads result.json, boxes.csv and, where there are such, products.csv and certificates.csv of a
 /// folder.
-///   Bounds and boxes are read outward: a row becomes the smallest box of doubles around its
-///   decimals, so that neighbours whose common face was rounded inward still meet.
+///   Boxes are read as the very doubles that were printed: what is proved of them is proved of the
+///   decimals, whoever wrote these.
 /// @throws input_error  for what is missing or malformed; that it is true is for others to check
 [[nodiscard]] SIVID_DECL stored_identification
 read_identification(std::filesystem::path const& folder);

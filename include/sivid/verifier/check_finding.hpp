@@ -76,9 +76,6 @@ struct identification_check_options {
     bool all = false; ///< every box instead
     std::uint64_t seed = 1;
     double seconds = 20; ///< for everything; what is not proved by then is not decided
-    /// Share of the prior's sides next to a box that is not excluded of which the check may say
-    /// nothing.
-    double rim = 1e-6;
     /// What the program that wrote the result assumes beside what the problem says.
     std::vector<std::string> further_assumptions = {};
     certificate_options certificate;

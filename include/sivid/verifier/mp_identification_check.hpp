@@ -3,7 +3,7 @@
 #define SIVID_VERIFIER_MP_IDENTIFICATION_CHECK_HPP
 
 /// @file
-/// `identification_check` in the interval types of MPFI; needs mpfi, mpfr and gmp at link time.
+/// `check_identification` in the interval types of MPFI; needs mpfi, mpfr and gmp at link time.
 /// CMake: sivid::compiled_mpfi has both functions compiled.
 
 #include <sivid/verifier/identification_check.hpp>
@@ -13,17 +13,16 @@
 
 namespace sivid {
 
-/// The witness and products in 40 digits, the boxes in doubles with elementary functions in 40
-/// digits: `identification_check<mp_interval, proven_interval>`.
-/// @returns, @given  as of `identification_check`
+/// The witness in 40 digits, the boxes in doubles with elementary functions in 40 digits.
+/// @returns, @given  as of `check_identification`
 [[nodiscard]] SIVID_MPFI_DECL std::vector<check_finding>
 check_by_proven_functions(identification_problem const& problem,
                           stored_identification const& stored,
                           identification_check_options const& options,
                           std::function<void(check_finding const&)> const& tell = nullptr);
 
-/// All of it in 40 digits: `identification_check<mp_interval, mp_interval>`.
-/// @returns, @given  as of `identification_check`
+/// All of it in 40 digits.
+/// @returns, @given  as of `check_identification`
 [[nodiscard]] SIVID_MPFI_DECL std::vector<check_finding>
 check_in_multiprecision(identification_problem const& problem, stored_identification const& stored,
                         identification_check_options const& options,

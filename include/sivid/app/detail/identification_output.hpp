@@ -170,8 +170,9 @@ public:
             files.commit();
         }
         limit_.allow(completing);
-        auto const motion =
-            draws_motion ? find_explaining_motion(problem_, found_, 240, limit_) : std::nullopt;
+        auto const motion = draws_motion
+                                ? find_explaining_motion(problem_, found_, motion_pieces, limit_)
+                                : std::nullopt;
         bool whole = true;
         if (motion) {
             view_ = viewed(&*motion);

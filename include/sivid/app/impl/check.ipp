@@ -81,8 +81,7 @@ inline std::vector<check_finding> work(identification_problem const& problem,
     return multiprecision ? check_in_multiprecision(problem, stored, options, print)
                           : check_by_proven_functions(problem, stored, options, print);
 #else
-    using check = identification_check<interval, interval>;
-    return check(problem, stored, options)(print);
+    return check_identification(problem, stored, options, print);
 #endif
 }
 
@@ -174,12 +173,12 @@ inline int check_identification(robot const& r, check_command const& c) {
     options.certificate.keep_going = wanted;
     auto const findings = work(problem, stored, options, c.multiprecision);
     auto const by = c.how.method == "taylor" ? std::string{} : ", " + c.how.method;
-    std::cout << "  witness and products in " << exact_words << "; boxes in "
+    std::cout << "  witness in " << exact_words << "; boxes in "
               << (c.multiprecision ? exact_words : fast_words)
-              << (c.all ? ": Taylor models in scalars, then first-order sets (Lohner" + by +
-                              "), decided anew\n"
+              << (c.all ? ": the proofs of the result, then first-order sets (Lohner" + by +
+                              "), then the test of the search\n"
                         : ", by first-order sets (Lohner" + by +
-                              "), not by the Taylor models that found them\n");
+                              "), what they leave open by the test of the search\n");
     return concluded(title_of(data, stored.effects, stored.disturbances, problem.model), findings,
                      c.result);
 }

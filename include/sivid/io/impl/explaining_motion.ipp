@@ -56,29 +56,6 @@ inline std::size_t steps_for(experiment const& e, std::size_t pieces) {
     return 2000 + 4 * stops;
 }
 
-inline explaining_motion enclose_motion(identification_problem const& problem, motion_source source,
-                                        box parameters, std::vector<box> starts, std::size_t pieces,
-                                        std::function<bool()> const& keep_going) {
-    explaining_motion motion{source, std::move(parameters), std::move(starts), {}, {}, {}};
-    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
-        auto const& s = problem.experiments[e];
-        auto const f =
-            std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs),
-                                         region_of_runs{motion.starts[e], motion.parameters});
-        double const end = s.end();
-        enclosure_options options;
-        if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);
-        options.maximum_steps = steps_for(s, pieces);
-        options.keep_going = keep_going;
-        motion.flows.push_back(f);
-        motion.tubes.push_back(std::make_shared<tube<interval>>(
-            integrate<interval>(f, motion.starts[e], motion.parameters, s.begin, end, options)));
-        motion.outputs.push_back(
-            outputs_along(*motion.tubes[e], sorted(s.measurements), keep_going));
-    }
-    return motion;
-}
-
 /// Whether the drawn tubes alone show that at most `outliers` measurements of each experiment fail.
 inline bool shows_explanation(identification_problem const& problem,
                               explaining_motion const& motion) {
@@ -104,6 +81,30 @@ inline box middle_half(box x) {
 }
 
 } // namespace io_detail
+
+SIVID_DECL explaining_motion enclose_motion(identification_problem const& problem,
+                                            motion_source source, box parameters,
+                                            std::vector<box> starts, std::size_t pieces,
+                                            std::function<bool()> const& keep_going) {
+    explaining_motion motion{source, std::move(parameters), std::move(starts), {}, {}, {}};
+    for (std::size_t e = 0; e < problem.experiments.size(); ++e) {
+        auto const& s = problem.experiments[e];
+        auto const f =
+            std::make_shared<flow const>(problem.model, problem.choice, nominal(s.inputs),
+                                         region_of_runs{motion.starts[e], motion.parameters});
+        double const end = s.end();
+        enclosure_options options;
+        if (pieces > 0) options.maximum_step = (end - s.begin) / static_cast<double>(pieces);
+        options.maximum_steps = io_detail::steps_for(s, pieces);
+        options.keep_going = keep_going;
+        motion.flows.push_back(f);
+        motion.tubes.push_back(std::make_shared<tube<interval>>(
+            integrate<interval>(f, motion.starts[e], motion.parameters, s.begin, end, options)));
+        motion.outputs.push_back(
+            io_detail::outputs_along(*motion.tubes[e], sorted(s.measurements), keep_going));
+    }
+    return motion;
+}
 
 SIVID_DECL std::optional<explaining_motion>
 find_explaining_motion(identification_problem const& problem, identification const& found,
@@ -132,22 +133,20 @@ find_explaining_motion(identification_problem const& problem, identification con
     if (largest != nullptr) {
         auto part = *largest;
         for (int attempt = 0; attempt < 5 && (!keep_going || keep_going()); ++attempt) {
-            auto motion = io_detail::enclose_motion(problem, motion_source::inside_box, part,
-                                                    starts, pieces, keep_going);
+            auto motion = enclose_motion(problem, motion_source::inside_box, part, starts, pieces,
+                                         keep_going);
             if (io_detail::shows_explanation(problem, motion)) return motion;
             part = io_detail::middle_half(part);
         }
     }
     if (keep_going && !keep_going()) return std::nullopt;
     if (found.witness) {
-        return io_detail::enclose_motion(problem, motion_source::witness,
-                                         point_box(found.witness->parameters),
-                                         points(found.witness->starts), pieces, keep_going);
+        return enclose_motion(problem, motion_source::witness, point_box(found.witness->parameters),
+                              points(found.witness->starts), pieces, keep_going);
     }
     if (found.guess && !found.guess->parameters.empty()) {
-        return io_detail::enclose_motion(problem, motion_source::best_guess,
-                                         point_box(found.guess->parameters), starts, pieces,
-                                         keep_going);
+        return enclose_motion(problem, motion_source::best_guess,
+                              point_box(found.guess->parameters), starts, pieces, keep_going);
     }
     return std::nullopt;
 }

@@ -20,13 +20,10 @@ namespace sivid {
 
 /// An identification as its files state it; nothing in it is trusted.
 struct stored_identification {
-    /// A quantity and what it may be; an empty range where the file says null.
+    /// A parameter and its hull; an empty range where the file says null.
     struct bound {
         std::string name;
         interval range;
-        std::string unit{};
-        /// Of a parameter, between the ends of its range; nothing when the result does not say.
-        std::optional<double> excluded_between{};
     };
     struct witness_point {
         std::map<std::string, double> parameters;
@@ -40,9 +37,8 @@ struct stored_identification {
 
     /// The paving of products from which hull, volumes, combinations and rows were drawn.
     struct product_boxes {
-        std::vector<std::string> sides;                 ///< formulas
-        std::vector<paved_box> rows;                    ///< of products.csv, read outward
-        std::map<std::string, std::size_t> stated_rows; ///< how many of each kind
+        std::vector<std::string> sides; ///< formulas
+        std::vector<paved_box> rows;    ///< of products.csv, the very boxes
     };
 
     /// The motion whose outputs outputs.csv encloses, as result.json says.
@@ -50,39 +46,26 @@ struct stored_identification {
         std::string source; ///< as `to_string(motion_source)`; "" where the table shows none
         std::map<std::string, interval> parameters;                     ///< the very doubles
         std::map<std::string, std::map<std::string, interval>> initial; ///< the same
-        std::string digest; ///< of the table, SHA-256, as stated
-    };
-
-    /// What data can tell, where it is said, as far as it is called proved.
-    struct identifiability_claims {
-        std::map<std::string, interval> at; ///< the unknowns for which it holds, the very doubles
-        std::vector<std::string> unknowns;
-        std::size_t least_rank = 0, most_rank = 0;
-        std::vector<std::string> proved; ///< free motions and fixed formulas, as `claims_of` says
     };
 
     std::string dataset;
     std::string source_folder; ///< the data set, as seen from the folder of the result; may be ""
     std::string source_digest; ///< of `dataset_digest`; "" when the file has none
     std::string problem;       ///< of `problem_digest`; "" when the file has none
-    std::string time_unit;     ///< of the model; "" when the file has none
     std::vector<std::string> effects; ///< joined to the data set's model, by name
     allowed_disturbances disturbances;
     sivid::verdict verdict = sivid::verdict::undecided;
-    std::string grounds; ///< what the verdict is said to rest on; "" in older files
     stop_reason reason = stop_reason::decided;
-    bool by_clock = false; ///< the time ended something: see `identification`
-    std::optional<search_effort> effort;
+    bool searched = false; ///< else measurements came one by one
     /// Of certificates.csv: how the exclusions of the products, or else of the boxes, are proved.
     /// Empty where there is no such file.
     exclusion_proof proof;
     double tolerance = 0; ///< of the search's enclosures; 0 when the result does not say
     std::vector<std::string> assumptions;
-    /// SHA-256 of the tables, by name: as stated, and as they are.
-    std::map<std::string, std::string> stated_files, files;
+    /// What follows from the boxes, the witness and the problem, as it is stated: the text of each
+    /// number and word of result.json by its place there.
+    std::map<std::string, std::string> stated;
     std::vector<bound> parameters;
-    std::vector<bound> combinations; ///< by formula
-    interval inner, outer;
     std::optional<product_boxes> products;
     std::optional<witness_point> witness;
     std::map<std::string, std::size_t> budget; ///< of outliers, by scenario
@@ -90,11 +73,11 @@ struct stored_identification {
     /// How many outliers are needed, in all and by scenario; nothing when the result does not say.
     std::optional<proved_count> fewest;
     std::map<std::string, proved_count> fewest_alone;
-    std::optional<identifiability_claims> identifiability;
-    std::vector<paved_box> rows;                    ///< of boxes.csv, read outward
-    std::map<std::string, std::size_t> stated_rows; ///< how many of each kind, if stated
-    std::optional<shown_motion> shown;              ///< nothing where the result does not say
-    std::string outputs; ///< the text of outputs.csv; "" where there is none
+    /// The unknowns for which it is said what data can tell, the very doubles.
+    std::optional<std::map<std::string, interval>> identifiable_at;
+    std::vector<paved_box> rows;       ///< of boxes.csv, the very boxes
+    std::optional<shown_motion> shown; ///< nothing where the result does not say
+    std::string outputs;               ///< the text of outputs.csv; "" where there is none
 };
 
 namespace io_detail {
@@ -103,14 +86,6 @@ namespace io_detail {
 [[nodiscard]] inline std::string paving_headings(std::vector<std::string> const& names) {
     std::string text = "verdict";
     for (auto const& name : names) text += std::string{","} + name + "_lower," + name + "_upper";
-    return text;
-}
-
-/// How a result states a motion that no output shows: "scaling L 1, Sg -1"
-[[nodiscard]] inline std::string motion_claim(std::string const& kind,
-                                              std::map<std::string, long> const& weights) {
-    std::string text = kind;
-    for (auto const& [name, w] : weights) text += " " + name + " " + std::to_string(w);
     return text;
 }
 

@@ -8,8 +8,8 @@
 
 #include <sivid/approximate/fit/detail/counterexample.hpp>
 #include <sivid/diagnosis/candidate/detail/describe_candidate.hpp>
-#include <sivid/diagnosis/candidate/detail/effect_hulls.hpp>
-#include <sivid/diagnosis/candidate/detail/episode_hulls.hpp>
+#include <sivid/diagnosis/claim/detail/answer_hulls.hpp>
+#include <sivid/diagnosis/claim/detail/claim_review.hpp>
 #include <sivid/diagnosis/claim/detail/diagnosis_consistency.hpp>
 #include <sivid/diagnosis/claim/detail/embedded_problem.hpp>
 #include <sivid/diagnosis/claim/detail/place_report.hpp>
@@ -100,17 +100,6 @@ public:
         return proved.range.upper() <= most  ? outcome::verified
                : proved.range.lower() > most ? outcome::refuted
                                              : outcome::undecided;
-    }
-
-    /// Whether a search finds parameters for which the factor is `most` at most, where nobody says
-    /// which they are.
-    [[nodiscard]] outcome found_at_most(identification_problem const& p, double most,
-                                        double share) const {
-        if (p.model.has_memory()) return outcome::undecided;
-        auto const found = bounds(p, share * limit_->seconds());
-        return !io_detail::below(most, found.upper()) ? outcome::verified
-               : found.lower() > most                 ? outcome::refuted
-                                                      : outcome::undecided;
     }
 
     /// Whether no parameter explains the data while all bounds are `least` times as wide, or less.
@@ -278,132 +267,6 @@ with_effects(identification_problem const& base, std::vector<effect> const& cata
     }
 }
 
-/// What a diagnosis says of the parameters of its answer: hulls, combinations, times.
-class effect_hulls_check {
-    using outcome = check_finding::outcome;
-
-public:
-    effect_hulls_check(identification_problem const& base, std::vector<effect> const& catalogue,
-                       diagnosis const& d, inflation_proof const& proof, work_limit const& limit)
-        : base_(&base), catalogue_(&catalogue), d_(&d), proof_(&proof), limit_(&limit) {}
-
-    /// As found anew; no sides where none was.
-    [[nodiscard]] explained_hull const& found() const { return hull_; }
-
-    /// Hulls of the answer: what lies outside of them is excluded anew.
-    [[nodiscard]] check_finding operator()(cause const* c) {
-        finding_of_all all;
-        auto const stated = [](std::vector<named_estimate> const& list) {
-            return std::ranges::any_of(list, [](auto const& e) { return e.hull.has_value(); });
-        };
-        for (auto const& other : d_->causes) {
-            if (&other == c) continue;
-            if (stated(other.parameters) || !other.onsets.empty() || !other.ends.empty())
-                all.note(outcome::undecided, "hulls of a cause that is not the answer");
-        }
-        bool const some =
-            (c != nullptr && (stated(c->parameters) || !c->onsets.empty() || !c->ends.empty())) ||
-            stated(d_->constants) || !d_->combinations.empty();
-        std::string why;
-        std::vector<effect> named;
-        auto const p = some && c != nullptr
-                           ? with_effects(*base_, *catalogue_, c->effects, named, why)
-                           : std::nullopt;
-        if (some && !p) all.note(outcome::undecided, "hulls of no answer, or of another one");
-        if (!p) return all.finding("hulls", "");
-        effect_hull_options how;
-        how.seconds = 0.4 * limit_->seconds();
-        how.boxes = 40000;
-        how.keep_going = *limit_;
-        how.test = proof_->test();
-        bool const later =
-            named.size() == 1 && (named.front().begins_later() || named.front().ends());
-        if (later) {
-            auto const found = hulls_of_episodes(*base_, named.front(), how);
-            hull_ = explained_hull{found.parameters};
-            times(c->onsets, found, true, all);
-            times(c->ends, found, false, all);
-        } else {
-            hull_ = effect_hulls(*base_, named, how);
-            if (!c->onsets.empty() || !c->ends.empty())
-                all.note(outcome::refuted, "times of effects that act all the time");
-        }
-        sides(*p, *c, all);
-        return all.finding("hulls", "all that lies outside is excluded anew");
-    }
-
-private:
-    /// The ranges of parameters and of combinations that are stated against those found.
-    void sides(identification_problem const& p, cause const& c, finding_of_all& all) const {
-        auto const range = [&](named_estimate const& e) {
-            if (!e.hull) return;
-            auto const j = std::ranges::find(p.choice.unknown, e.name) - p.choice.unknown.begin();
-            auto const at = static_cast<std::size_t>(j);
-            if (at >= hull_.parameters.size()) {
-                all.note(outcome::refuted, "a hull of no parameter: " + e.name);
-                return;
-            }
-            auto says = compared(hull_.parameters[at], *e.hull);
-            // A hull is no more than an enclosure: only a proof that some lie outside refutes it.
-            if (says != outcome::verified) says = outside(p, at, *e.hull);
-            all.note(says, "values of " + e.name + " beyond its hull are not excluded");
-        };
-        for (auto const& e : c.parameters) range(e);
-        for (auto const& e : d_->constants) range(e);
-        if (d_->combinations.empty()) return;
-        auto const again = told_combinations(p, d_->constants, hull_);
-        for (auto const& k : d_->combinations) {
-            auto const at =
-                std::ranges::find(again, k.about.name, [](auto const& t) { return t.about.name; });
-            bool const found = at != again.end() && k.about.hull && at->about.hull &&
-                               at->about.unit == k.about.unit &&
-                               within_stated(*at->about.hull, *k.about.hull);
-            all.note(found ? outcome::verified : outcome::undecided,
-                     "the range of " + k.about.name + " is not proved again");
-        }
-    }
-    /// Whether nothing beyond a range of parameter j explains the data.
-    [[nodiscard]] outcome outside(identification_problem const& p, std::size_t j,
-                                  interval const& range) const {
-        using traits = interval_traits<interval>;
-        auto result = outcome::verified;
-        for (bool const above : {false, true}) {
-            auto slab = p;
-            auto const& whole = p.prior[j];
-            bool const none =
-                above ? range.upper() >= whole.upper() : range.lower() <= whole.lower();
-            if (none) continue;
-            slab.prior[j] =
-                above ? traits::bounds(std::max(range.upper(), whole.lower()), whole.upper())
-                      : traits::bounds(whole.lower(), std::min(range.lower(), whole.upper()));
-            auto const says = proof_->none_explains(slab, 0.1);
-            if (says == outcome::refuted) return says;
-            if (says == outcome::undecided) result = says;
-        }
-        return result;
-    }
-    void times(std::vector<named_estimate> const& stated, episode_hulls const& found, bool onset,
-               finding_of_all& all) const {
-        for (auto const& t : stated) {
-            auto const& list = base_->experiments;
-            auto const e = static_cast<std::size_t>(
-                std::ranges::find(list, t.name, &experiment::name) - list.begin());
-            bool const there =
-                e < list.size() && e < found.times.size() && t.hull &&
-                within_stated(onset ? found.times[e].on : found.times[e].off, *t.hull);
-            all.note(there ? outcome::verified : outcome::undecided,
-                     "when it acts in " + t.name + " is not proved again");
-        }
-    }
-
-    identification_problem const* base_;
-    std::vector<effect> const* catalogue_;
-    diagnosis const* d_;
-    inflation_proof const* proof_;
-    work_limit const* limit_;
-    explained_hull hull_;
-};
-
 /// One check of a stored diagnosis.
 class diagnosis_check_work {
     using outcome = check_finding::outcome;
@@ -418,8 +281,7 @@ public:
           held_out_(options.held_out),
           limit_(options.seconds, options.test.keep_going),
           test_(limited(options.test, limit_)),
-          proof_(options.test, limit_),
-          hulls_(base, catalogue, *d_, proof_, limit_) {}
+          proof_(options.test, limit_) {}
 
     std::vector<check_finding> operator()(std::function<void(check_finding const&)> const& tell) {
         auto const add = [&](auto const& work) {
@@ -437,7 +299,7 @@ public:
         add([&] { return relations(); });
         add([&] { return places(); });
         for (std::size_t k = 0; k < d_->causes.size(); ++k) add([&] { return cause_at(k); });
-        add([&] { return hulls_(answer()); });
+        add([&] { return hulls(); });
         add([&] { return check_parts(*base_, *d_, most(), proof_, limit_); });
         for (auto const& c : d_->confined)
             add([&] { return check_confined(*base_, c, whole_, proof_); });
@@ -559,38 +421,28 @@ private:
 
     [[nodiscard]] check_finding assumptions() const {
         finding_of_all all;
-        auto const need = [&](std::vector<std::string> const& more) {
-            for (auto const& a : more) {
-                bool const there = std::ranges::find(d_->assumptions, a) != d_->assumptions.end();
-                all.note(there ? outcome::verified : outcome::refuted, "'" + a + "' is missing");
-            }
-        };
-        need({input_assumption(base_->experiments)});
-        for (auto const& r : d_->relations)
-            if (r.proved) need(r.assumptions);
-        for (auto const& p : d_->where)
-            if (p.proved) need(p.assumptions);
-        for (auto const& c : d_->causes)
-            if (c.verdict != cause_verdict::undecided || c.witness) need(c.assumptions);
-        for (auto const& c : d_->confined) need(c.assumptions);
+        auto needed = *d_;
+        needed.assumptions = {input_assumption(base_->experiments)};
+        list_assumptions(needed);
+        for (auto const& a : needed.assumptions) {
+            bool const there = std::ranges::find(d_->assumptions, a) != d_->assumptions.end();
+            all.note(there ? outcome::verified : outcome::refuted, "'" + a + "' is missing");
+        }
         return all.finding("assumptions", "those of the problem and of every claim");
     }
 
     /// The upper end of an inflation, by its witness.
     /// @param assumptions  receives what the proof rests on
     [[nodiscard]] outcome upper_end(identification_problem const& p, interval const& stated,
-                                    std::optional<named_witness> const& w, double share,
+                                    std::optional<named_witness> const& w,
                                     std::vector<std::string>& assumptions) const {
         if (!claims_upper(stated)) return outcome::nothing;
-        return w ? proof_.at_most(p, *w, stated.upper(), &assumptions)
-                 : proof_.found_at_most(p, stated.upper(), share);
+        return w ? proof_.at_most(p, *w, stated.upper(), &assumptions) : outcome::undecided;
     }
     /// Both ends of an inflation: the upper one as `upper_end` found it, the lower one by a search.
-    void ends(identification_problem const& p, interval const& stated, outcome upper, bool witness,
-              double share, finding_of_all& all) const {
-        all.note(upper, witness ? "the witness does not show the upper bound"
-                                : "no witness is stated, and none found that shows the upper "
-                                  "bound");
+    void ends(identification_problem const& p, interval const& stated, outcome upper, double share,
+              finding_of_all& all) const {
+        all.note(upper, "no witness shows the upper bound");
         if (stated.lower() > 0)
             all.note(proof_.at_least(p, stated.lower(), share),
                      "the lower bound is not proved within the budget, or not true");
@@ -598,8 +450,8 @@ private:
 
     [[nodiscard]] check_finding gap() {
         finding_of_all all;
-        base_upper_ = upper_end(*base_, d_->inflation, d_->witness, 0.25, base_assumptions_);
-        ends(*base_, d_->inflation, base_upper_, d_->witness.has_value(), 0.25, all);
+        base_upper_ = upper_end(*base_, d_->inflation, d_->witness, base_assumptions_);
+        ends(*base_, d_->inflation, base_upper_, 0.25, all);
         auto const words = std::string{to_string(d_->gap)};
         auto found = all.finding("gap", words + ", both bounds of its inflation");
         if (found.found == outcome::verified) whole_ = d_->inflation.lower();
@@ -726,10 +578,9 @@ private:
         double const share = 1.0 / static_cast<double>(d_->causes.size() - k + 2);
         bool const by_relation = c.verdict == cause_verdict::excluded && !c.excluded_by.empty();
         std::vector<std::string> of_run;
-        auto const upper = carried(*p, c, of_run)
-                               ? outcome::verified
-                               : upper_end(*p, c.inflation, c.witness, share, of_run);
-        ends(*p, c.inflation, upper, c.witness.has_value(), share, all);
+        auto const upper = carried(*p, c, of_run) ? outcome::verified
+                                                  : upper_end(*p, c.inflation, c.witness, of_run);
+        ends(*p, c.inflation, upper, share, all);
         if (c.verdict == cause_verdict::explains && !c.witness)
             all.note(outcome::undecided, "it explains the data, but no witness is stated");
         for (auto const& equation : c.untouched) {
@@ -764,8 +615,111 @@ private:
         return at == d_->causes.end() ? nullptr : &*at;
     }
 
+    /// The run behind a diagnosis as far as its witnesses tell: the model as it is, and the answer.
+    [[nodiscard]] std::optional<diagnosis_run> rebuilt(cause const& c) const {
+        diagnosis_run run;
+        std::string why;
+        auto const p = with_effects(*base_, *catalogue_, c.effects, run.catalogue, why);
+        auto const own = p && c.witness ? point_of(*p, *c.witness) : std::nullopt;
+        if (!own) return std::nullopt;
+        auto const base = d_->witness ? point_of(*base_, *d_->witness) : std::nullopt;
+        candidate answered;
+        for (std::size_t k = 0; k < run.catalogue.size(); ++k) answered.effects.push_back(k);
+        run.base = *base_;
+        run.candidates = {{{}, *base_, base.value_or(approximate_fit{})}, {answered, *p, *own}};
+        run.answer = 1;
+        run.result.causes = {c};
+        return run;
+    }
+
+    /// Hulls of the answer, its combinations and times: by the step that found them, or what lies
+    /// outside is excluded anew.
+    [[nodiscard]] check_finding hulls() {
+        finding_of_all all;
+        auto const stated = [](std::vector<named_estimate> const& list) {
+            return std::ranges::any_of(list, [](auto const& e) { return e.hull.has_value(); });
+        };
+        auto const claims = [&](cause const& c) {
+            return stated(c.parameters) || !c.onsets.empty() || !c.ends.empty();
+        };
+        auto const* const c = answer();
+        for (auto const& other : d_->causes)
+            if (&other != c && claims(other))
+                all.note(outcome::undecided, "hulls of a cause that is not the answer");
+        bool const some =
+            (c != nullptr && claims(*c)) || stated(d_->constants) || !d_->combinations.empty();
+        if (some && c != nullptr) answered_ = rebuilt(*c);
+        if (some && !answered_)
+            all.note(outcome::undecided, "hulls of no answer, or of another one");
+        if (!answered_) return all.finding("hulls", "");
+        auto& again = answered_->result.causes.front();
+        again.onsets.clear();
+        again.ends.clear();
+        diagnosis_options how;
+        how.hulls = {40000, 1};
+        diagnosis_effort effort(0.4 * limit_.seconds(), test_, {});
+        answer_hulls(*answered_, effort, how)();
+        for (auto const* const list : {&c->parameters, &d_->constants})
+            for (auto const& e : *list)
+                if (e.hull) side(e, all);
+        combinations(all);
+        for (auto const& [said, found] :
+             {std::pair{&c->onsets, &again.onsets}, std::pair{&c->ends, &again.ends}})
+            for (auto const& t : *said) {
+                auto const at = std::ranges::find(*found, t.name, &named_estimate::name);
+                bool const there =
+                    at != found->end() && t.hull && at->hull && within_stated(*at->hull, *t.hull);
+                all.note(there ? outcome::verified : outcome::undecided,
+                         "when it acts in " + t.name + " is not proved again");
+            }
+        return all.finding("hulls", "all that lies outside is excluded anew");
+    }
+    /// A hull is no more than an enclosure: only a proof that some lie outside refutes it.
+    void side(named_estimate const& e, finding_of_all& all) const {
+        auto const& p = answered_->candidates[1].problem;
+        auto const& found = answered_->answer_hull.parameters;
+        auto const j = std::ranges::find(p.choice.unknown, e.name) - p.choice.unknown.begin();
+        auto const at = static_cast<std::size_t>(j);
+        if (at >= p.choice.unknown.size())
+            return all.note(outcome::refuted, "a hull of no parameter: " + e.name);
+        bool const within = at < found.size() && within_stated(found[at], *e.hull);
+        all.note(within ? outcome::verified : outside(p, at, *e.hull),
+                 "values of " + e.name + " beyond its hull are not excluded");
+    }
+    void combinations(finding_of_all& all) const {
+        if (d_->combinations.empty()) return;
+        auto const again = told_combinations(answered_->candidates[1].problem, d_->constants,
+                                             answered_->answer_hull);
+        for (auto const& k : d_->combinations) {
+            auto const at =
+                std::ranges::find(again, k.about.name, [](auto const& t) { return t.about.name; });
+            bool const found = at != again.end() && k.about.hull && at->about.hull &&
+                               at->about.unit == k.about.unit &&
+                               within_stated(*at->about.hull, *k.about.hull);
+            all.note(found ? outcome::verified : outcome::undecided,
+                     "the range of " + k.about.name + " is not proved again");
+        }
+    }
+    /// Whether nothing beyond a range of parameter j explains the data.
+    [[nodiscard]] outcome outside(identification_problem const& p, std::size_t j,
+                                  interval const& range) const {
+        auto result = outcome::verified;
+        auto const& whole = p.prior[j];
+        for (auto const& beyond :
+             {std::pair{whole.lower(), std::min(range.lower(), whole.upper())},
+              std::pair{std::max(range.upper(), whole.lower()), whole.upper()}}) {
+            if (!(beyond.first < beyond.second)) continue;
+            auto slab = p;
+            slab.prior[j] = interval_traits<interval>::bounds(beyond.first, beyond.second);
+            auto const says = proof_.none_explains(slab, 0.1);
+            if (says == outcome::refuted) return says;
+            if (says == outcome::undecided) result = says;
+        }
+        return result;
+    }
+
     /// The answer by the held-out data, judged once more.
-    [[nodiscard]] check_finding judged() const {
+    [[nodiscard]] check_finding judged() {
         std::string const what = "held-out data";
         bool const stated =
             std::ranges::any_of(d_->causes, [](cause const& c) { return c.holdout.has_value(); });
@@ -775,33 +729,26 @@ private:
             return {what, outcome::undecided, "of a cause that is not the answer"};
         if (held_out_ == nullptr || held_out_->empty())
             return {what, outcome::refuted, "the data set has none"};
-        diagnosis_run run;
-        std::string why;
-        auto const p = with_effects(*base_, *catalogue_, c->effects, run.catalogue, why);
-        if (!p || !c->witness || !d_->witness) return {what, outcome::undecided, "no witness"};
-        auto const base = point_of(*base_, *d_->witness), own = point_of(*p, *c->witness);
-        if (!base || !own) return {what, outcome::undecided, "no witness"};
-        run.base = *base_;
-        candidate answered;
-        for (std::size_t k = 0; k < run.catalogue.size(); ++k) answered.effects.push_back(k);
-        run.candidates = {{{}, *base_, *base}, {answered, *p, *own}};
-        run.answer = 1;
+        if (!answered_) answered_ = rebuilt(*c);
+        if (!answered_ || answered_->candidates[0].fit.parameters.empty())
+            return {what, outcome::undecided, "no witness"};
+        auto& run = *answered_;
+        auto const &base = run.candidates[0].fit, &own = run.candidates[1].fit;
         run.base_bound = {
-            d_->inflation, verified_witness{base->parameters, base->starts, {}}, {}, {}};
+            d_->inflation, verified_witness{base.parameters, base.starts, {}}, {}, {}};
         // Which hold those that do as well; all, where the search found one that does better.
-        auto const about = proof_.search(*base_, &*base, 0.2 * limit_.seconds());
+        auto const about = proof_.search(*base_, &base, 0.2 * limit_.seconds());
         run.base_bound.hull =
             below(about.value.upper(), d_->inflation.upper()) ? base_->prior : about.hull;
-        run.answer_bound = {
-            c->inflation, verified_witness{own->parameters, own->starts, {}}, {}, {}};
-        run.answer_hull = hulls_.found();
+        run.answer_bound = {c->inflation, verified_witness{own.parameters, own.starts, {}}, {}, {}};
         run.result.causes = {*c};
         run.result.causes.front().holdout.reset();
         judge_by_holdout(run, *held_out_, limit_.seconds(), proof_.test(), 4000);
         auto const& again = run.result.causes.front().holdout;
         if (!again) return {what, outcome::undecided, "not judged again"};
         finding_of_all all;
-        auto const same = [&](interval const& found, interval const& said, char const* which) {
+        auto const same = [&](inflation_range const& found, inflation_range const& said,
+                              char const* which) {
             all.note(compared(found, said), std::string{"the inflation "} + which);
         };
         same(again->inflation_before, c->holdout->inflation_before, "before, at the witness");
@@ -822,8 +769,8 @@ private:
     work_limit limit_;
     feasibility_test_options test_;
     inflation_proof proof_;
-    effect_hulls_check hulls_;
-    outcome base_upper_ = outcome::nothing;       ///< of the upper end of the gap's inflation
+    std::optional<diagnosis_run> answered_; ///< behind the answer, with its hulls as found anew
+    outcome base_upper_ = outcome::nothing; ///< of the upper end of the gap's inflation
     std::vector<std::string> base_assumptions_{}; ///< on which it rests
     double whole_ = 0; ///< the inflation of all data is proved to be this at least
     std::vector<relation_finding> broken_;

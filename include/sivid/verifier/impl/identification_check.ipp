@@ -7,10 +7,11 @@
 
 namespace sivid {
 
-template <class Exact, class Fast>
-std::vector<check_finding> identification_check<Exact, Fast>::operator()(
-    std::function<void(check_finding const&)> const& tell) const {
-    return io_detail::identification_check_work<Exact, Fast>(*problem_, *stored_, options_)(tell);
+SIVID_DECL std::vector<check_finding>
+check_identification(identification_problem const& problem, stored_identification const& stored,
+                     identification_check_options const& options,
+                     std::function<void(check_finding const&)> const& tell) {
+    return io_detail::identification_check_work<interval, interval>(problem, stored, options)(tell);
 }
 
 } // namespace sivid

@@ -6,9 +6,13 @@
 
 #include <sivid/enclosure/set/parametric_set.hpp>
 #include <sivid/enclosure/suggested_degree.hpp>
+#include <sivid/io/input_error.hpp>
+#include <sivid/io/result/problem_digest.hpp>
+#include <sivid/io/result/same_problem.hpp>
+#include <sivid/model/structure/homogeneity.hpp>
 #include <sivid/paving/judge/feasibility_test.hpp>
 #include <sivid/verifier/claim/detail/named_motion.hpp>
-#include <sivid/verifier/claim/detail/stored_claims.hpp>
+#include <sivid/verifier/claim/detail/restated.hpp>
 #include <sivid/verifier/proof/detail/plain_proof.hpp>
 
 #include <algorithm>
@@ -44,36 +48,31 @@ public:
             starts_.push_back(point_within(data.experiments[e].initial, mid(point->starts[e])));
     }
 
-    void use(std::vector<product_formula> sides, std::vector<std::size_t> pivots) {
-        sides_ = std::move(sides);
-        pivots_ = std::move(pivots);
-    }
+    /// From now on points are of products.
+    void use(reduction const& map) { map_ = &map; }
 
     /// @param point  products or parameters, then what is set
     [[nodiscard]] std::vector<std::vector<double>>
     candidates(std::vector<double> const& point) const {
-        auto const n = data_.choice.unknown.size();
-        auto const own = pivots_.empty() ? n : pivots_.size();
+        auto const own = static_cast<std::ptrdiff_t>(map_ != nullptr ? map_->sides().size()
+                                                                     : data_.prior.size());
+        std::vector<double> const at(point.begin(), point.begin() + own);
         std::vector<std::vector<double>> result;
         auto const add = [&](std::vector<double> parameters) {
-            for (std::size_t k = own; k < point.size(); ++k) parameters.push_back(point[k]);
+            parameters.insert(parameters.end(), point.begin() + own, point.end());
             result.push_back(std::move(parameters));
         };
         if (!witness_.empty()) add(witness_);
-        if (pivots_.empty()) {
-            add({point.begin(), point.begin() + static_cast<std::ptrdiff_t>(n)});
+        if (map_ == nullptr) {
+            add(at);
             return result;
         }
-        std::vector<std::vector<double>> others;
-        if (!witness_.empty()) others.push_back(witness_);
-        for (double const share : {0.5, 0.1, 0.9, 0.01, 0.99}) {
-            auto& p = others.emplace_back();
+        if (!witness_.empty()) add(with_products(witness_, at));
+        for (double const share : {0.5, 0.1, 0.9}) {
+            std::vector<double> factors;
             for (auto const& side : data_.prior)
-                p.push_back(side.lower() + share * (side.upper() - side.lower()));
-        }
-        for (auto& p : others) {
-            if (solve(p, point)) add(std::move(p));
-            if (result.size() > 3) break;
+                factors.push_back(side.lower() + share * (side.upper() - side.lower()));
+            add(with_products(factors, at));
         }
         return result;
     }
@@ -95,18 +94,15 @@ public:
                       is_decimal(prior));
         }
         bool found = false;
-        if (within) {
-            certificate_options options;
-            options.seconds = seconds_;
-            auto const at = point_within(data_.prior, parameters);
-            for (auto const& starts : {starts_, std::vector<box>{}}) {
-                if (found) break;
-                if (starts.empty() && !starts_.empty() && !any_choice()) continue;
-                claim_checker<interval> check(data_, starts, options);
-                std::vector<box_claim> claim{{at, box_claim::kind::inside}};
-                check(claim);
-                found = claim.front().found == box_claim::status::proved;
-            }
+        certificate_options options;
+        options.seconds = seconds_;
+        for (auto const& starts : {starts_, std::vector<box>{}}) {
+            if (!within || found || (starts.empty() && !starts_.empty() && !any_choice())) continue;
+            claim_checker<interval> check(data_, starts, options);
+            std::vector<box_claim> claim{
+                {point_within(data_.prior, parameters), box_claim::kind::inside}};
+            check(claim);
+            found = claim.front().found == box_claim::status::proved;
         }
         known_[parameters] = found;
         return found;
@@ -119,27 +115,23 @@ private:
                                return !std::all_of(e.initial.begin(), e.initial.end(), is_decimal);
                            });
     }
-    /// Gives the pivots of p the values that the products ask for.
-    [[nodiscard]] bool solve(std::vector<double>& p, std::vector<double> const& products) const {
-        for (std::size_t k = 0; k < pivots_.size(); ++k) {
-            double others = 1;
-            auto const& exponents = sides_[k].exponents();
-            for (std::size_t j = 0; j < p.size(); ++j) {
-                if (j != pivots_[k]) others *= std::pow(p[j], exponents[j]);
-            }
-            double const value = products[k] / others;
-            if (!std::isfinite(value) || !contains(data_.prior[pivots_[k]], value)) return false;
-            p[pivots_[k]] = value;
+    /// The factors with what the products ask for in place of the pivots.
+    [[nodiscard]] std::vector<double> with_products(std::vector<double> const& factors,
+                                                    std::vector<double> const& products) const {
+        auto near = data_.prior;
+        for (std::size_t j = 0; j < near.size(); ++j) {
+            bool const pivot = std::ranges::any_of(
+                map_->sides(), [j](reduction::side const& s) { return s.parameter == j; });
+            if (!pivot) near[j] = interval(factors[j]);
         }
-        return true;
+        return map_->approximate_preimage(near, products);
     }
 
     identification_problem data_;
     double seconds_;
     std::vector<double> witness_;
     std::vector<box> starts_;
-    std::vector<product_formula> sides_;
-    std::vector<std::size_t> pivots_;
+    reduction const* map_ = nullptr;
     std::map<std::vector<double>, bool> known_;
 };
 
@@ -300,40 +292,172 @@ inline void pose_in_parameters(identification_problem const& data,
     result.sides = problem.choice.unknown;
 }
 
+/// Why equations, or margins, may see parameters otherwise than through products; else empty.
+///   Shown by dimensional analysis: to scale a factor against the pivots changes none of them.
+inline std::string seen_otherwise(reduction const& map, identification_problem const& data,
+                                  bound_model const& asked) {
+    for (std::size_t j = 0; j < data.prior.size(); ++j) {
+        std::vector<int> weights(asked.parameters.size(), 0);
+        bool pivot = false, used = false;
+        for (auto const& s : map.sides()) {
+            pivot = pivot || s.parameter == j;
+            if (!s.product || s.parameter == j) continue;
+            weights[s.parameter] = -s.product->exponents[j];
+            used = used || s.product->exponents[j] != 0;
+        }
+        if (pivot) continue;
+        weights[j] = 1;
+        auto const& name = data.choice.unknown[j];
+        if (used && contains(data.prior[j], 0.0)) return name + " may be 0";
+        if (!is_scale_invariant(asked, weights))
+            return name + " may act otherwise than through the products";
+    }
+    return {};
+}
+
+/// Whether parameters of a prior reach a box of products.
+enum class reach { all, some, none };
+
+/// @guarantee  all: with some of the factors as they are, the pivots reach each of its points;
+///             none: no parameter has its products there
+[[nodiscard]] inline reach reach_of(reduction const& map, box const& prior, box const& r) {
+    auto const near = map.backward(prior, r);
+    if (is_empty(near)) return reach::none;
+    auto const factors = point_box(mid(near));
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        auto const& s = map.sides()[k];
+        auto pivot = r[k];
+        if (s.product) {
+            auto others = *s.product;
+            others.exponents[s.parameter] = 0;
+            bool undefined = false;
+            pivot = interval_traits<interval>::div(r[k], others.over(factors), undefined);
+            if (undefined) return reach::some;
+        }
+        if (!subset(pivot, prior[s.parameter])) return reach::some;
+    }
+    return reach::all;
+}
+
+/// Boxes within boxes of products, of which parameters of a prior reach every point: as many as
+/// halving finds.
+/// @param tested  boxes, at most so many more than there are
+[[nodiscard]] inline std::vector<box> reached_within(reduction const& map, box const& prior,
+                                                     std::vector<box> boxes, std::size_t tested) {
+    std::vector<box> result;
+    tested += boxes.size();
+    for (std::size_t at = 0; at < boxes.size(); ++at) {
+        auto const r = boxes[at]; // a copy: there will be more
+        auto const found = reach_of(map, prior, r);
+        if (found == reach::all) result.push_back(r);
+        if (found != reach::some || boxes.size() + 2 > tested) continue;
+        auto const side = widest_side(r, map.problem().prior);
+        if (!side) continue;
+        auto const [low, high] = bisect(r, *side, mid(r[*side]));
+        boxes.push_back(low);
+        boxes.push_back(high);
+    }
+    return result;
+}
+
 /// The products that the data leave, where these tell the motions of the prediction and its
-/// margins, and are all that the equations of the data see.
-inline void pose_in_products(identification_problem const& data,
-                             stored_identification::product_boxes const& stored,
+/// margins, too.
+inline void pose_in_products(identification_problem const& data, restated const& known,
                              std::vector<node_id> const& margins, further_unknowns const& further,
                              std::shared_ptr<feasible_search> const& search,
                              stored_prediction& result) {
     auto const& direct = result.direct;
-    identification_problem asked;
-    asked.model = followed_outputs(direct.model, margins).model;
-    asked.choice = direct.choice;
-    asked.prior = direct.sets.front();
-    experiment scenario;
-    scenario.inputs = direct.inputs;
-    scenario.initial = direct.initial;
-    asked.experiments = {scenario};
-    auto formulas = stored.sides;
-    formulas.insert(formulas.end(), further.names.begin(), further.names.end());
-    auto const rebuilt = rebuild_products<interval>(asked, formulas);
-    result.not_in_products = !rebuilt.malformed.empty() ? rebuilt.malformed : rebuilt.unproved;
-    auto const seen = rebuild_products<interval>(data, stored.sides);
-    if (result.not_in_products.empty()) result.not_in_products = seen.unproved;
+    auto const& map = *known.map;
+    result.not_in_products = seen_otherwise(
+        map, data,
+        sivid::bind(followed_outputs(direct.model, margins).model, direct.choice, direct.inputs));
     result.in_products = result.not_in_products.empty();
     if (!result.in_products) return;
     auto& problem = result.problem;
-    if (!direct.model.has_memory()) problem.measured = measured_by(seen.problem, search);
-    problem.choice = rebuilt.problem.choice;
-    result.sides = formulas;
-    problem.sets = further.beside(stored.rows);
-    if (share_a_factor(rebuilt))
-        problem.reached = reached_within(rebuilt, asked.prior, problem.sets, 1000);
-    auto const own = static_cast<std::ptrdiff_t>(stored.sides.size());
-    search->use({rebuilt.sides.begin(), rebuilt.sides.begin() + own},
-                {rebuilt.pivots.begin(), rebuilt.pivots.begin() + own});
+    if (!direct.model.has_memory()) problem.measured = measured_by(map.problem(), search);
+    auto& unknown = problem.choice.unknown;
+    auto const& fixed = map.problem().choice.fixed; // the factors that products stand for
+    problem.choice.fixed.insert(fixed.begin(), fixed.end());
+    unknown = map.problem().choice.unknown;
+    unknown.insert(unknown.end(), further.names.begin(), further.names.end());
+    for (auto const& name : further.names) problem.choice.fixed.erase(name);
+    result.sides = map.side_names();
+    result.sides.insert(result.sides.end(), further.names.begin(), further.names.end());
+    auto const& rows = known.found.products->paving.boxes();
+    problem.sets = further.beside(rows);
+    if (!map.fills()) {
+        problem.reached.emplace();
+        std::vector<box> own;
+        for (auto const& row : rows) own.push_back(row.set);
+        for (auto const& r : reached_within(map, data.prior, std::move(own), 1000))
+            problem.reached->push_back(further.beside(r));
+    }
+    search->use(map);
+}
+
+/// What the boxes say of the witness, and boxes of parameters of those of products.
+inline std::string boxes_fault(stored_identification const& stored, restated const& known) {
+    auto const met_by = [](std::vector<paved_box> const& rows, box const& x) {
+        return std::ranges::any_of(
+            rows, [&x](paved_box const& row) { return !is_empty(intersect(row.set, x)); });
+    };
+    auto const& products = stored.products;
+    for (auto const& row : stored.rows)
+        if (products && !met_by(products->rows, known.map->forward(row.set)))
+            return "a box of parameters has products in no box of products";
+    if (!stored.witness) return {};
+    box at(stored.parameters.size());
+    for (std::size_t j = 0; j < at.size(); ++j) {
+        auto const own = stored.witness->parameters.find(stored.parameters[j].name);
+        if (own == stored.witness->parameters.end()) return "the witness lacks a parameter";
+        at[j] = interval(own->second);
+    }
+    if (!met_by(stored.rows, at)) return "the witness lies in no box";
+    if (products && !met_by(products->rows, known.map->forward(at)))
+        return "the witness lies in no box of products";
+    return {};
+}
+
+/// Refuses a result that is not one of this problem, or contradicts itself. That its claims are
+/// true is for a check to say.
+/// @throws input_error
+inline restated consistent(identification_problem const& data, stored_identification const& stored,
+                           std::filesystem::path const& file) {
+    using outcome = check_finding::outcome;
+    auto const refuse = [&](std::string const& what,
+                            std::string const& remedy = "identify the data anew") {
+        throw input_error{{.file = file.string()}, what, remedy};
+    };
+    auto const contradicts = [&](std::string const& fault) {
+        if (!fault.empty()) refuse("the result contradicts itself: " + fault);
+    };
+    require_same_problem(data, stored, file);
+    for (auto const& e : data.experiments) {
+        if (e.outliers >= e.measurements.size() && !e.measurements.empty())
+            refuse("all measurements of " + in_quotes(e.name) +
+                   " may violate their bounds: nothing is known from them");
+    }
+    if (stored.problem.empty())
+        refuse("the result does not say which problem was identified: an earlier version wrote it");
+    if (stored.problem != problem_digest(data))
+        refuse("this is not the problem that was identified: the model, its constants, effects, "
+               "data or budgets of outliers differ (SHA-256)",
+               "give the model and the data set that were identified, or identify anew");
+    if (!stored.stated.contains("/files"))
+        refuse("the result does not state the SHA-256 of its tables");
+    auto const inputs = input_assumption(data.experiments);
+    if (std::ranges::find(stored.assumptions, inputs) == stored.assumptions.end())
+        contradicts("it does not assume '" + inputs + "'");
+    auto known = restate(data, stored);
+    contradicts(known.fault);
+    known.found.assumptions = stored.assumptions; // others are the program's
+    contradicts(boxes_fault(stored, known));
+    for (auto const& found : compared_groups(stored, known, members_of(data, known.found, {})))
+        if (found.found == outcome::refuted) contradicts(found.detail);
+    if (stored.verdict == verdict::inconsistent)
+        refuse("no parameter is left: the model contradicts the data",
+               "ask `diagnose` what the model lacks");
+    return known;
 }
 
 } // namespace io_detail
@@ -342,7 +466,8 @@ SIVID_DECL std::unique_ptr<stored_prediction>
 predict_from(identification_problem const& data, stored_identification const& stored,
              recorded_model const& model, std::vector<node_id> const& margins,
              prediction_request const& request, std::filesystem::path const& file) {
-    io_detail::require_consistent(data, stored, file);
+    auto const known =
+        std::make_shared<io_detail::restated const>(io_detail::consistent(data, stored, file));
     auto result = std::make_unique<stored_prediction>();
     auto& direct = result->direct;
     direct.model = model;
@@ -360,14 +485,13 @@ predict_from(identification_problem const& data, stored_identification const& st
 
     auto const search =
         std::make_shared<io_detail::feasible_search>(data, stored, request.proof_seconds);
-    if (stored.products)
-        io_detail::pose_in_products(data, *stored.products, margins, further, search, *result);
+    if (known->map) io_detail::pose_in_products(data, *known, margins, further, search, *result);
     if (!result->in_products) io_detail::pose_in_parameters(data, stored, further, search, *result);
     if (problem.sets.empty())
         throw input_error{
             {.file = file.string()}, "no parameter is left", "identify the data anew"};
     result->feasible.direct = &result->direct;
-    result->feasible.candidates = [search](std::vector<double> const& p) {
+    result->feasible.candidates = [search, known](std::vector<double> const& p) {
         return search->candidates(p);
     };
     if (result->starts_follow) return result;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <sivid/verifier/claim/detail/paving_check.hpp>
 
+#include <sivid/paving/products/dependence.hpp>
+
 #include "io/stored_result.hpp"
 #include "support/catch.hpp"
 
@@ -25,20 +27,26 @@ struct drawn {
         return result;
     }
 
-    [[nodiscard]] std::vector<box> gaps() const {
+    [[nodiscard]] outcome excluded() const { return check(false); }
+    [[nodiscard]] outcome inside() const { return check(true); }
+
+private:
+    [[nodiscard]] static std::vector<box> gaps(box const& prior,
+                                               std::vector<paved_box> const& rows) {
         std::vector<box> sets;
-        for (auto const& row : stored.rows) sets.push_back(row.set);
-        auto left = cover(problem.prior, sets).gaps;
-        io_detail::drop_slivers(left, problem.prior);
-        return left;
+        for (auto const& row : rows) sets.push_back(row.set);
+        return cover(prior, sets).gaps;
     }
-    [[nodiscard]] outcome excluded() const {
-        auto const rebuilt = rebuild_products<interval>(problem, stored.products->sides);
-        return drawing_check<interval>(problem, stored, rebuilt).excluded("", gaps()).found;
-    }
-    [[nodiscard]] outcome inside() const {
-        auto const rebuilt = rebuild_products<interval>(problem, stored.products->sides);
-        return drawing_check<interval>(problem, stored, rebuilt).inside("").found;
+    [[nodiscard]] outcome check(bool inside_boxes) const {
+        auto const map = coordinates_of(problem).value();
+        subpaving products(map.problem().prior);
+        for (auto const& row : stored.products->rows) products.add(row.set, row.verdict);
+        for (auto& gap : gaps(products.prior(), stored.products->rows))
+            products.add(gap, box_verdict::outside);
+        drawing_check drawing(map, products, problem.prior, nullptr);
+        return inside_boxes
+                   ? drawing.inside("", stored.rows).found
+                   : drawing.excluded("", stored.rows, gaps(problem.prior, stored.rows)).found;
     }
 };
 

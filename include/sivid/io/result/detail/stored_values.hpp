@@ -72,6 +72,46 @@ inline std::vector<std::string> texts(json_value const& list) {
     return all;
 }
 
+/// The text of each number and word of a value, and how many entries lists have, by place.
+inline void spell_out(json_value const& value, std::map<std::string, std::string>& all) {
+    using kind = json_value::kind;
+    auto& text = all[value.place().pointer];
+    auto const children = [&](std::vector<json_value> const& list) {
+        text = std::to_string(list.size()) + " entries";
+        for (auto const& child : list) spell_out(child, all);
+    };
+    switch (value.type()) {
+    case kind::null:
+        text = "null";
+        break;
+    case kind::boolean:
+        text = value.boolean() ? "true" : "false";
+        break;
+    case kind::number:
+        text = value.number().text();
+        break;
+    case kind::string:
+        text = value.raw_string();
+        break;
+    case kind::array:
+        children(value.elements());
+        break;
+    case kind::object:
+        children(value.members());
+        break;
+    }
+}
+
+/// The members of a result that follow from its boxes, its witness and the problem.
+inline std::map<std::string, std::string> what_follows(json_value const& root) {
+    std::map<std::string, std::string> all;
+    for (auto const* const name : {"problem", "time_unit", "verdict", "verdict_rests_on", "files",
+                                   "parameters", "combinations", "volume", "rows", "products",
+                                   "assumptions", "identifiability", "outputs"})
+        if (auto const* const member = root.find(name)) spell_out(*member, all);
+    return all;
+}
+
 } // namespace sivid::io_detail
 
 #endif

@@ -6,10 +6,8 @@
 
 #include <sivid/compiled.hpp>
 #include <sivid/io/input_error.hpp>
-#include <sivid/io/result/detail/product_formula.hpp>
 #include <sivid/io/result/stored_identification.hpp>
 #include <sivid/model/problem.hpp>
-#include <sivid/model/unit.hpp>
 
 #include <cstddef>
 #include <filesystem>
@@ -27,24 +25,6 @@ SIVID_DECL void require_same_problem(identification_problem const& problem,
     if (stored.parameters.size() != names.size()) fail("other parameters than the data set's");
     for (std::size_t j = 0; j < names.size(); ++j) {
         if (stored.parameters[j].name != names[j]) fail("other parameters than the data set's");
-    }
-    if (!stored.time_unit.empty() && stored.time_unit != problem.model.about.time_unit)
-        fail("another unit of time");
-    auto const& constants = problem.model.about.constants;
-    auto const unit_of = [&](product_formula const& formula) {
-        unit product;
-        for (std::size_t j = 0; j < names.size(); ++j) {
-            auto const& own = constants[index_of(constants, names[j], "constant")].unit;
-            product = product.times(unit(own), formula.exponents()[j]);
-        }
-        return product.text();
-    };
-    for (auto const* const list : {&stored.parameters, &stored.combinations}) {
-        for (auto const& q : *list) {
-            auto const formula = product_formula::parse(q.name, names);
-            if (!formula) fail(text_of("no product of the parameters: ", in_quotes(q.name)));
-            if (unit(q.unit).text() != unit_of(*formula)) fail("another unit of " + q.name);
-        }
     }
     for (auto const& e : problem.experiments) {
         if (stored.budget.count(e.name) == 0) {

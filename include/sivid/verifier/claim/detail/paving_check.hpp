@@ -4,17 +4,19 @@
 
 #include <sivid/approximate/fit/detail/counterexample.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
-#include <sivid/number/text/nearest_text.hpp>
+#include <sivid/paving/invert.hpp>
+#include <sivid/paving/judge/feasibility_test.hpp>
+#include <sivid/paving/products/detail/drawing.hpp>
 #include <sivid/space/box_cover.hpp>
 #include <sivid/verifier/check_finding.hpp>
-#include <sivid/verifier/claim/detail/stored_claims.hpp>
 #include <sivid/verifier/proof/detail/exclusion_check.hpp>
 #include <sivid/verifier/proof/detail/plain_proof.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numeric>
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -23,166 +25,126 @@
 
 namespace sivid {
 
-/// Checks that the boxes of a result follow from its paving of products: what they leave of the
-/// prior has products in no row of products, and inside boxes have products in inside rows alone.
-/// Nothing is integrated: what is proved of the products is proved of the boxes.
-///   Up to the last digits, in which the tables are rounded: contacts thinner than that count as
-///   none.
-/// @tparam I  in which products are evaluated
-template <class I>
+/// Checks that the boxes of a result follow from its paving of products, by the test that drew
+/// them: what they leave of the prior has products in no row of products, and inside boxes have
+/// products in inside rows alone. Nothing is integrated.
 class drawing_check {
     using outcome = check_finding::outcome;
 
 public:
-    /// @param pieces  of boxes that are looked at before a claim is left open
-    /// @param keep_going  once false, claims are left open; may be empty
-    drawing_check(identification_problem const& problem, stored_identification const& stored,
-                  stored_products const& rebuilt, std::size_t pieces = 400'000,
-                  std::function<bool()> keep_going = nullptr)
-        : problem_(&problem),
-          stored_(&stored),
-          rebuilt_(&rebuilt),
-          most_(pieces),
-          keep_going_(std::move(keep_going)) {
-        auto const n = problem.prior.size();
-        faces_.resize(n);
-        for (auto const& row : stored.rows) {
-            for (std::size_t j = 0; j < n; ++j) {
-                faces_[j].push_back(row.set[j].lower());
-                faces_[j].push_back(row.set[j].upper());
-            }
-        }
-        for (auto& list : faces_) {
-            std::sort(list.begin(), list.end());
-            list.erase(std::unique(list.begin(), list.end()), list.end());
-        }
-    }
+    /// @param products  the rows, with what they leave of the products' prior as outside
+    /// @param pieces    of boxes that are looked at before a claim is left open
+    drawing_check(reduction const& map, subpaving const& products, box prior,
+                  std::function<bool()> keep_going, std::size_t pieces = 400'000)
+        : map_(&map),
+          test_(map, products),
+          prior_(std::move(prior)),
+          keep_going_(std::move(keep_going)),
+          left_(pieces) {}
 
-    /// @param gaps  what the rows leave of the prior, without slivers
-    [[nodiscard]] check_finding excluded(std::string what, std::vector<box> const& gaps) {
-        if (gaps.empty()) return {std::move(what), outcome::nothing, ""};
-        std::size_t open = 0;
-        for (auto const& gap : gaps) open += is_excluded(gap) ? 0 : 1;
-        return finding(std::move(what), gaps.size(), open);
-    }
-    [[nodiscard]] check_finding inside(std::string what) {
-        std::vector<box> rows;
-        for (auto const& row : stored_->products->rows) {
-            if (row.verdict == box_verdict::inside) rows.push_back(row.set);
-        }
-        std::size_t count = 0, open = 0;
-        for (auto const& row : stored_->rows) {
+    [[nodiscard]] check_finding inside(std::string what, std::vector<paved_box> const& rows) {
+        std::size_t all = 0, proved = 0;
+        for (auto const& row : rows) {
             if (row.verdict != box_verdict::inside) continue;
-            ++count;
-            auto const image =
-                io_detail::image_of<I>(*rebuilt_, intersect(row.set, problem_->prior));
-            std::vector<box> left{image};
-            if (std::ranges::all_of(image, [](interval const& side) { return is_bounded(side); })) {
-                left = cover(image, rows, 2e-15, keep_going_).gaps;
-                io_detail::drop_slivers(left, image);
-            }
-            open += left.empty() ? 0 : 1;
+            ++all;
+            proved += test_(row.set, nullptr).verdict == box_verdict::inside ? 1 : 0;
         }
-        if (count == 0) return {std::move(what), outcome::nothing, ""};
-        return finding(std::move(what), count, open);
+        return finding(std::move(what), proved, all);
+    }
+    /// @param gaps  what the rows leave of the prior
+    [[nodiscard]] check_finding excluded(std::string what, std::vector<paved_box> const& rows,
+                                         std::vector<box> const& gaps) {
+        faces_.assign(prior_.size(), {});
+        for (auto const& row : rows)
+            for (std::size_t j = 0; j < prior_.size(); ++j)
+                for (double const end : {row.set[j].lower(), row.set[j].upper()})
+                    faces_[j].push_back(end);
+        for (auto& list : faces_) std::ranges::sort(list);
+        std::size_t proved = 0;
+        for (auto const& gap : gaps) proved += is_excluded(gap) ? 1 : 0;
+        return finding(std::move(what), proved, gaps.size());
     }
 
 private:
-    [[nodiscard]] static check_finding finding(std::string what, std::size_t count,
-                                               std::size_t open) {
-        auto detail = std::to_string(count - open) + " of " + std::to_string(count) +
-                      " follow from the products";
-        return {std::move(what), open == 0 ? outcome::verified : outcome::undecided,
-                std::move(detail)};
+    [[nodiscard]] static check_finding finding(std::string what, std::size_t proved,
+                                               std::size_t all) {
+        if (all == 0) return {std::move(what), outcome::nothing, ""};
+        return {std::move(what), proved == all ? outcome::verified : outcome::undecided,
+                std::to_string(proved) + " of " + std::to_string(all) +
+                    " follow from the products"};
     }
-    /// Whether a row has more than a rounding error in common with an image.
-    [[nodiscard]] bool meets(box const& row, box const& image) const {
-        for (std::size_t k = 0; k < row.size(); ++k) {
-            double const common = std::min(row[k].upper(), image[k].upper()) -
-                                  std::max(row[k].lower(), image[k].lower());
-            auto const& whole = rebuilt_->problem.prior[k];
-            if (io_detail::is_sliver(common, mag(row[k]), whole) && row[k].lower() < row[k].upper())
-                return false;
-            if (common < 0) return false;
-        }
-        return true;
-    }
-
-    [[nodiscard]] bool late() const { return keep_going_ && !keep_going_(); }
-
+    /// Contacts with rows that the test narrows to a rounding count as none.
     [[nodiscard]] bool is_excluded(box const& gap) {
-        if (late()) return false;
         struct piece {
             box set;
-            std::vector<std::size_t> near;
+            std::shared_ptr<preimage_test::knowledge const> of_whole;
         };
-        std::vector<std::size_t> all(stored_->products->rows.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        std::vector<piece> waiting{{gap, std::move(all)}};
+        std::vector<piece> waiting{{gap, nullptr}};
         while (!waiting.empty()) {
+            if (left_ == 0 || (keep_going_ && !keep_going_())) return false;
+            --left_;
             auto const next = std::move(waiting.back());
             waiting.pop_back();
-            auto const image = io_detail::image_of<I>(*rebuilt_, next.set);
-            auto near = next.near;
-            std::erase_if(
-                near, [&](std::size_t k) { return !meets(stored_->products->rows[k].set, image); });
-            if (near.empty()) continue;
-            auto const cut = place_to_cut(next.set);
-            if (!cut || spent_++ >= most_ || late()) return false;
-            auto [low, high] = bisect(next.set, cut->first, cut->second);
-            waiting.push_back({std::move(low), near});
-            waiting.push_back({std::move(high), std::move(near)});
+            auto const found = test_(next.set, next.of_whole);
+            if (found.verdict == box_verdict::outside || is_contact(found.rest)) continue;
+            auto const side = side_to_cut(found.rest);
+            if (!side) return false;
+            auto [low, high] = bisect(found.rest, *side, place_to_cut(*side, found.rest[*side]));
+            waiting.push_back({std::move(low), found.knowledge});
+            waiting.push_back({std::move(high), found.knowledge});
         }
         return true;
     }
-
-    /// The face of a row next to the middle of a side, the middle where there is none; the side
-    /// that is widest against the prior's, those with faces first.
-    [[nodiscard]] std::optional<std::pair<std::size_t, double>> place_to_cut(box const& x) const {
-        std::optional<std::pair<std::size_t, double>> best;
-        double most = 0;
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            double const whole = width(problem_->prior[j]);
-            double const w = x[j].upper() - x[j].lower(), middle = mid(x[j]);
-            if (!acts(j) || !(whole > 0) || !(w > 1e-13 * whole) || !(w > 0x1p-48 * mag(x[j]))) {
-                continue;
-            }
-            auto const next = std::lower_bound(faces_[j].begin(), faces_[j].end(), middle);
-            std::optional<double> face;
-            auto const look = [&](double f) {
-                double const room = 0x1p-50 * mag(x[j]);
-                if (!(f > x[j].lower() + room) || !(f < x[j].upper() - room)) return;
-                if (!face || std::abs(f - middle) < std::abs(*face - middle)) face = f;
-            };
-            if (next != faces_[j].end()) look(*next);
-            if (next != faces_[j].begin()) look(*std::prev(next));
-            double const rank = w / whole + (face ? 2 : 0);
-            if (rank <= most) continue;
-            most = rank;
-            best = {j, face.value_or(middle)};
-        }
+    [[nodiscard]] bool is_contact(box const& x) const {
+        for (std::size_t j = 0; j < x.size(); ++j)
+            if (map_->acts(j) && !is_one_number(prior_[j]) && is_one_number(x[j])) return true;
+        return false;
+    }
+    /// The widest against the prior's, as long as it is far more than a rounding.
+    [[nodiscard]] std::optional<std::size_t> side_to_cut(box const& x) const {
+        return io_detail::side_to_cut(
+            x,
+            [&](std::size_t j) {
+                bool const cut = map_->acts(j) && !is_one_number(prior_[j]);
+                return cut ? width(x[j]) / width(prior_[j]) : 0;
+            },
+            1e-13);
+    }
+    /// The face of a row next to the middle, the middle where there is none.
+    [[nodiscard]] double place_to_cut(std::size_t j, interval const& x) const {
+        auto const& faces = faces_[j];
+        double const middle = mid(x);
+        auto const inner = [&x](double at) { return x.lower() < at && at < x.upper(); };
+        auto const next = std::ranges::lower_bound(faces, middle);
+        double best = middle;
+        double least = HUGE_VAL;
+        auto const look = [&](double face) {
+            if (!inner(face) || !(std::abs(face - middle) < least)) return;
+            least = std::abs(face - middle);
+            best = face;
+        };
+        if (next != faces.end()) look(*next);
+        if (next != faces.begin()) look(*std::prev(next));
         return best;
     }
-    [[nodiscard]] bool acts(std::size_t j) const {
-        return std::any_of(rebuilt_->sides.begin(), rebuilt_->sides.end(),
-                           [j](auto const& side) { return side.exponents()[j] != 0; });
-    }
 
-    identification_problem const* problem_;
-    stored_identification const* stored_;
-    stored_products const* rebuilt_;
-    std::vector<std::vector<double>> faces_; ///< of the rows, by side
-    std::size_t most_, spent_ = 0;
+    reduction const* map_;
+    preimage_test test_;
+    box prior_;
     std::function<bool()> keep_going_;
+    std::size_t left_;
+    std::vector<std::vector<double>> faces_; ///< of the rows, by side
 };
 
 /// Checks a stored paving against its problem: its boxes cover the prior with what it excludes, and
-/// what it says of boxes is proved anew, for a sample or for all. Before that, fits look for a
-/// point that contradicts it, in all boxes.
+/// what it says of boxes is proved anew, for a sample or for all: by the steps of its proof, by
+/// first-order sets, then, for what these leave open, by the test of the search. Before that, fits
+/// look for a point that contradicts it, in all boxes.
 /// @tparam Fast  interval type of the runs over boxes
 template <class Fast>
 class paving_check {
     using outcome = check_finding::outcome;
+    using status = box_claim::status;
 
 public:
     /// @param names   of the sides, for counterexamples
@@ -198,56 +160,63 @@ public:
           options_(&options),
           proof_(std::move(proof)) {}
 
-    /// Inside rows are printed inward: a few floats between neighbours are in none, and nothing is
-    /// said of them.
+    /// The rows lie in the prior and share no volume; rows and gaps are all of it.
     [[nodiscard]] check_finding covering(std::string what) {
-        std::vector<box> sets;
-        for (auto const& row : *rows_) sets.push_back(row.set);
-        auto found = cover(problem_->prior, sets, 2e-15, options_->certificate.keep_going);
-        auto result = check_cover(std::move(what), *problem_, *rows_, found);
+        auto found = cover(problem_->prior, sets(), 2e-15, options_->certificate.keep_going);
         covered_ = found.complete;
         gaps_ = std::move(found.gaps);
-        io_detail::drop_slivers(gaps_, problem_->prior);
-        return result;
+        if (!covered_) return {std::move(what), outcome::undecided, "not within the budget"};
+        bool const within = std::ranges::all_of(
+            *rows_, [this](auto const& row) { return subset(row.set, problem_->prior); });
+        if (!within) return {std::move(what), outcome::refuted, "a box leaves the prior"};
+        if (!found.overlaps.empty())
+            return {std::move(what), outcome::refuted,
+                    std::to_string(found.overlaps.size()) + " pairs of boxes overlap"};
+        return {std::move(what), outcome::verified,
+                "boxes disjoint; with " + std::to_string(gaps_.size()) +
+                    " excluded boxes between them all of the prior"};
     }
 
     [[nodiscard]] check_finding inside(std::string what) {
-        std::vector<box_claim> claims;
-        std::vector<std::size_t> rows;
-        for (std::size_t k = 0; k < rows_->size(); ++k) {
-            if ((*rows_)[k].verdict == box_verdict::inside) rows.push_back(k);
-        }
-        auto const total = rows.size();
+        std::vector<box> boxes;
+        for (auto const& row : *rows_)
+            if (row.verdict == box_verdict::inside) boxes.push_back(row.set);
+        auto const total = boxes.size();
         if (total == 0) return {std::move(what), outcome::nothing, ""};
-        if (std::any_of(rows.begin(), rows.end(), [&](std::size_t k) {
-                return is_empty(intersect((*rows_)[k].set, problem_->prior));
-            })) {
-            return {std::move(what), outcome::refuted, "one lies beside the prior"};
+        for (auto& x : boxes) {
+            x = intersect(x, problem_->prior);
+            if (is_empty(x))
+                return {std::move(what), outcome::refuted, "one lies beside the prior"};
         }
         std::mt19937_64 random(options_->seed);
-        if (auto const at = unexplained_point(rows, random)) return contradicted(what, *at);
-        for (std::size_t k = 0; k < rows.size() && (options_->all || k < options_->sample); ++k) {
-            if (!options_->all) std::swap(rows[k], rows[k + random() % (rows.size() - k)]);
-            claims.push_back(
-                {intersect((*rows_)[rows[k]].set, problem_->prior), box_claim::kind::inside});
-        }
-        return prove(std::move(what), std::move(claims), total);
+        std::ranges::shuffle(boxes, random); // should time not suffice for all
+        std::optional<std::vector<double>> point;
+        auto const fitted = std::min(boxes.size(), most_fitted());
+        (void)find_unexplained_point(
+            *problem_, {boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(fitted)},
+            search([&](approximate_fit const& f) {
+                if (!proves(f, false, run_finding::refuted)) return false;
+                point = f.parameters;
+                return true;
+            }));
+        if (point) return contradicted(std::move(what), *point);
+        if (!options_->all) boxes.resize(std::min(boxes.size(), options_->sample));
+        return prove(std::move(what), boxes, box_claim::kind::inside, total);
     }
 
     /// Half of the sample by volume, half box by box (most are thin and close to the feasible
     /// ones).
     /// @given  `covering` was called
     [[nodiscard]] check_finding outside(std::string what) {
-        if (!covered_) return io_detail::late(std::move(what));
+        if (!covered_) return {std::move(what), outcome::undecided, "not within the budget"};
         if (gaps_.empty()) return {std::move(what), outcome::nothing, ""};
-        if (auto const at = explaining_point()) return contradicted(what, *at);
+        if (auto const at = explaining_point()) return contradicted(std::move(what), *at);
         if (options_->all) return all_outside(std::move(what));
-        std::vector<box_claim> claims;
+        std::vector<box> parts;
         std::vector<double> until;
         double sum = 0;
-        for (auto const& gap : gaps_) {
+        for (auto const& gap : gaps_)
             until.push_back(sum += relative_volume(gap, problem_->prior).upper());
-        }
         std::mt19937_64 random(options_->seed + 1);
         auto const share = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
         for (std::size_t k = 0; k < options_->sample; ++k) {
@@ -256,14 +225,12 @@ public:
                 auto const at = std::lower_bound(until.begin(), until.end(), share() * sum);
                 n = std::min(static_cast<std::size_t>(at - until.begin()), gaps_.size() - 1);
             }
-            auto part = gaps_[n];
-            io_detail::shrink_to_share(part, problem_->prior, share);
-            claims.push_back({std::move(part), box_claim::kind::outside});
+            parts.push_back(part_of(gaps_[n], share));
         }
-        return prove(std::move(what), std::move(claims), gaps_.size());
+        return prove(std::move(what), parts, box_claim::kind::outside, gaps_.size());
     }
 
-    /// What the rows leave of the prior, but for rounding.
+    /// What the rows leave of the prior.
     /// @given  `covering` was called
     [[nodiscard]] std::vector<box> const& gaps() const { return gaps_; }
     /// Whether the time sufficed for the gaps.
@@ -276,6 +243,22 @@ private:
     /// prior. Where all is to be proved few will do.
     [[nodiscard]] std::size_t most_fitted() const { return options_->all ? 16 : 1024; }
 
+    [[nodiscard]] std::vector<box> sets() const {
+        std::vector<box> result;
+        for (auto const& row : *rows_) result.push_back(row.set);
+        return result;
+    }
+    /// A part of a box whose sides are large against the prior's, anywhere in it.
+    template <class Share>
+    [[nodiscard]] box part_of(box x, Share const& share) const {
+        for (std::size_t j = 0; j < x.size(); ++j) {
+            double const most = width(problem_->prior[j]) / 16, w = width(x[j]);
+            if (!(w > most)) continue;
+            double const low = x[j].lower() + share() * (w - most);
+            x[j] = intersect(x[j], interval_traits<interval>::bounds(low, low + most));
+        }
+        return x;
+    }
     [[nodiscard]] counterexample_options
     search(std::function<bool(approximate_fit const&)> confirms) const {
         counterexample_options how;
@@ -292,14 +275,13 @@ private:
     [[nodiscard]] std::optional<std::vector<double>> explaining_point() const {
         std::optional<std::vector<double>> point;
         auto largest = gaps_;
-        auto const volume = [this](box const& x) {
+        std::ranges::stable_sort(largest, std::ranges::greater{}, [this](box const& x) {
             return relative_volume(x, problem_->prior).upper();
-        };
-        std::ranges::stable_sort(largest, std::ranges::greater{}, volume);
+        });
         largest.resize(std::min(largest.size(), most_fitted()));
         (void)find_explaining_point(*problem_, largest, search([&](approximate_fit const& f) {
             bool const said = contains(problem_->prior, f.parameters) &&
-                              std::none_of(rows_->begin(), rows_->end(), [&](auto const& row) {
+                              std::ranges::none_of(*rows_, [&](auto const& row) {
                                   return contains(row.set, f.parameters);
                               });
             if (!said || !proves(f, true, run_finding::explained)) return false;
@@ -308,29 +290,10 @@ private:
         }));
         return point;
     }
-    /// A point of an inside row that is proved not to.
-    [[nodiscard]] std::optional<std::vector<double>>
-    unexplained_point(std::vector<std::size_t> const& rows, std::mt19937_64 random) const {
-        std::vector<box> inside;
-        for (auto const k : rows) {
-            auto x = intersect((*rows_)[k].set, problem_->prior);
-            if (!is_empty(x)) inside.push_back(std::move(x));
-        }
-        std::shuffle(inside.begin(), inside.end(), random); // should time not suffice for all
-        inside.resize(std::min(inside.size(), most_fitted()));
-        std::optional<std::vector<double>> point;
-        (void)find_unexplained_point(*problem_, inside, search([&](approximate_fit const& f) {
-            if (!proves(f, false, run_finding::refuted)) return false;
-            point = f.parameters;
-            return true;
-        }));
-        return point;
-    }
     [[nodiscard]] std::string words_of(std::vector<double> const& point) const {
         std::string text;
-        for (std::size_t j = 0; j < point.size(); ++j) {
+        for (std::size_t j = 0; j < point.size(); ++j)
             text += " " + names_[j] + "=" + exact_decimal::shortest(point[j]).text();
-        }
         return text;
     }
     [[nodiscard]] check_finding contradicted(std::string what,
@@ -339,130 +302,90 @@ private:
                 "found by a fit, proved by a validated run: the contrary holds at" + words_of(at)};
     }
 
-    /// What is left of an excluded box without its rim; nothing of one that is thinner than that.
-    [[nodiscard]] std::optional<box> without_rim(box x) const {
-        for (std::size_t j = 0; j < x.size(); ++j) {
-            auto const& side = problem_->prior[j];
-            double const off = options_->rim * width(side);
-            double const low = x[j].lower() > side.lower() ? x[j].lower() + off : x[j].lower();
-            double const high = x[j].upper() < side.upper() ? x[j].upper() - off : x[j].upper();
-            if (!(low <= high)) return std::nullopt;
-            x[j] = interval_traits<interval>::bounds(low, high);
+    /// By the steps of the proof, then, what they leave open, box by box.
+    [[nodiscard]] check_finding all_outside(std::string what) {
+        auto how = options_->certificate;
+        how.seconds = options_->seconds;
+        exclusion_check<Fast> exclude(*problem_, how, options_->run);
+        auto const open = exclude.follow(proof_, sets());
+        auto const steps = std::to_string(exclude.steps()) + " steps proved by their weights";
+        check_finding found{what, outcome::verified, steps};
+        if (exclude.over() && !open.empty()) // then rows are among what is open
+            found = {what, outcome::undecided, steps + ", not within the budget"};
+        else if (!open.empty()) {
+            found = prove(what, open, box_claim::kind::outside, open.size());
+            if (!proof_.empty()) found.detail = steps + "; of the rest " + found.detail;
         }
-        return x;
+        if (exclude.contradictions() == 0) return found;
+        if (found.found == outcome::verified) found.found = outcome::undecided;
+        found.detail += "; two integrators contradict each other: a defect, please report it";
+        return found;
     }
 
-    /// Contraction cuts so close to the feasible set that no run with a tolerance of its own can
-    /// follow: what is open is tried without its rim.
-    struct rim_findings {
-        std::size_t proved = 0; ///< but for their rims; their claims are `proved` now
-        std::size_t thin = 0;   ///< all rim: nothing is said of them, their claims stay open
-    };
-    [[nodiscard]] rim_findings prove_without_rim(std::vector<box_claim>& claims,
-                                                 claim_checker<Fast>& checker) const {
-        rim_findings found;
-        std::vector<box_claim> inner;
-        std::vector<box_claim*> whose;
+    /// By the test of the search, in parts: the claims that are open.
+    /// @returns  how many it proves
+    [[nodiscard]] std::size_t search_parts(std::vector<box_claim>& claims) const {
+        std::size_t found = 0;
+        feasibility_test_options how;
+        static_cast<run_options&>(how) = options_->run;
+        work_limit const limit(options_->seconds, options_->certificate.keep_going);
+        feasibility_test test(*problem_, limited(how, limit));
+        inversion_options parts;
+        parts.boxes = options_->certificate.runs_per_claim;
+        parts.accuracy = 1e-9; // the boxes end it
+        parts.sufficient_ratio = 1;
+        parts.keep_going = limit;
         for (auto& c : claims) {
-            if (c.found != box_claim::status::open || c.what != box_claim::kind::outside) continue;
-            if (auto left = without_rim(c.set)) {
-                inner.push_back({std::move(*left), box_claim::kind::outside});
-                whose.push_back(&c);
-            } else {
-                ++found.thin;
-            }
-        }
-        if (inner.empty()) return found;
-        checker(inner);
-        for (std::size_t k = 0; k < inner.size(); ++k) {
-            whose[k]->found = inner[k].found;
-            whose[k]->counterexample = inner[k].counterexample;
-            found.proved += inner[k].found == box_claim::status::proved ? 1 : 0;
+            if (c.found != status::open || !limit()) continue;
+            parts.seconds = limit.seconds();
+            auto const paving = invert(test, c.set, parts).paving;
+            bool const proved = std::ranges::all_of(paving.boxes(), [&](paved_box const& b) {
+                return b.verdict == (c.what == box_claim::kind::inside ? box_verdict::inside
+                                                                       : box_verdict::outside);
+            });
+            if (proved) c.found = status::proved;
+            found += proved ? 1 : 0;
         }
         return found;
     }
 
-    [[nodiscard]] certificate_options effort() const {
-        auto how = options_->certificate;
-        how.seconds = options_->seconds;
-        if (options_->all) how.runs_per_claim = static_cast<std::size_t>(-1);
-        return how;
-    }
-
-    /// By the steps of the proof, then, what they leave open, box by box.
-    [[nodiscard]] check_finding all_outside(std::string what) {
-        std::vector<box> rows;
-        for (auto const& row : *rows_) rows.push_back(row.set);
-        exclusion_check<Fast> exclude(*problem_, effort(), options_->run);
-        auto open = exclude.follow(proof_, rows);
-        bool const late = exclude.over(); // then rows are among what is open
-        io_detail::drop_slivers(open, problem_->prior);
-        std::string const steps = std::to_string(exclude.steps()) + " steps proved, " +
-                                  std::to_string(exclude.by_weights()) +
-                                  " by the weights of the result";
-        auto const sound = [&](check_finding found) {
-            if (exclude.contradictions() == 0) return found;
-            if (found.found == outcome::verified) found.found = outcome::undecided;
-            found.detail += "; two integrators contradict each other: a defect, please report it";
-            return found;
-        };
-        if (late && !open.empty())
-            return sound({std::move(what), outcome::undecided, steps + ", not within the budget"});
-        if (open.empty()) {
-            return sound({std::move(what), outcome::verified,
-                          steps + ", " + std::to_string(exclude.runs()) + " runs"});
-        }
-        std::vector<box_claim> claims;
-        for (auto& gap : open) claims.push_back({std::move(gap), box_claim::kind::outside});
-        exclude(claims);
-        auto const total = claims.size();
-        auto result = prove(std::move(what), std::move(claims), total, exclude.runs());
-        if (!proof_.empty()) result.detail = steps + "; of the rest " + result.detail;
-        return sound(std::move(result));
-    }
-
-    /// @param runs  that were spent on the claims before
-    [[nodiscard]] check_finding prove(std::string what, std::vector<box_claim> claims,
-                                      std::size_t total, std::size_t runs = 0) {
-        if (claims.empty()) {
+    [[nodiscard]] check_finding prove(std::string what, std::vector<box> const& boxes,
+                                      box_claim::kind kind, std::size_t total) const {
+        if (boxes.empty())
             return {std::move(what), outcome::undecided,
                     "none of " + std::to_string(total) + " examined"};
-        }
-        auto const how = effort();
+        std::vector<box_claim> claims;
+        for (auto const& x : boxes) claims.push_back({x, kind});
+        auto const count = [&](status s) {
+            return static_cast<std::size_t>(std::ranges::count(claims, s, &box_claim::found));
+        };
+        // What the steps of a proof leave open lies closer to what is left than first-order sets
+        // can tell.
+        bool const close = options_->all && kind == box_claim::kind::outside;
+        std::size_t searched = close ? search_parts(claims) : 0;
+        auto how = options_->certificate;
+        how.seconds = 0.5 * options_->seconds;
         claim_checker<Fast> checker(*problem_, starts_, how);
         checker(claims);
-        auto const rim = prove_without_rim(claims, checker);
-        auto const count = [&](box_claim::status s) {
-            return static_cast<std::size_t>(std::count_if(
-                claims.begin(), claims.end(), [s](box_claim const& c) { return c.found == s; }));
-        };
-        auto const proved = count(box_claim::status::proved);
-        auto const refuted = count(box_claim::status::refuted);
-        bool const whole = options_->all && rim.proved == 0 && rim.thin == 0;
-        check_finding result{std::move(what), whole ? outcome::verified : outcome::sampled, ""};
-        if (proved + rim.thin < claims.size()) result.found = outcome::undecided;
-        if (refuted > 0) result.found = outcome::refuted;
-        result.detail = std::to_string(proved - rim.proved) + " of " +
-                        std::to_string(claims.size()) + " proved";
-        if (!options_->all) result.detail += ", a sample of " + std::to_string(total);
-        if (refuted > 0) result.detail += ", " + std::to_string(refuted) + " refuted";
-        if (auto const open = claims.size() - proved - refuted - rim.thin; open > 0) {
-            result.detail += ", " + std::to_string(open) + " not confirmed";
-        }
-        auto const size = nearest_text(options_->rim, 3) + " of the prior";
-        if (rim.proved > 0) {
-            result.detail += ", " + std::to_string(rim.proved) + " more but for a rim of " + size;
-        }
-        if (rim.thin > 0) {
-            result.detail +=
-                ", " + std::to_string(rim.thin) + " thinner than " + size + " not examined";
-        }
-        result.detail += ", " + std::to_string(runs + checker.runs()) + " runs";
-        for (auto const& c : claims) {
-            if (c.found != box_claim::status::refuted) continue;
-            result.detail += "; the contrary holds at" + words_of(c.counterexample);
-            break;
-        }
+        if (!close && count(status::open) > 0) searched = search_parts(claims);
+        auto const proved = count(status::proved), refuted = count(status::refuted);
+        auto const open = count(status::open);
+        check_finding result{std::move(what),
+                             refuted > 0     ? outcome::refuted
+                             : open > 0      ? outcome::undecided
+                             : options_->all ? outcome::verified
+                                             : outcome::sampled,
+                             std::to_string(proved) + " of " + std::to_string(claims.size()) +
+                                 " proved"};
+        auto& words = result.detail;
+        if (!options_->all) words += ", a sample of " + std::to_string(total);
+        if (searched > 0) words += ", " + std::to_string(searched) + " by the test of the search";
+        if (refuted > 0) words += ", " + std::to_string(refuted) + " refuted";
+        if (open > 0) words += ", " + std::to_string(open) + " not confirmed";
+        words += ", " + std::to_string(checker.runs()) + " runs";
+        auto const contrary = std::ranges::find(claims, status::refuted, &box_claim::found);
+        if (contrary != claims.end())
+            words += "; the contrary holds at" + words_of(contrary->counterexample);
         return result;
     }
 
