@@ -126,6 +126,7 @@ public:
     /// @given  `begin` for that family (trusted)
     void resume(set_type const& set) requires(width == 1) {
         set_ = set;
+        begin_sticking(0);
         flow_order_ = std::max<std::size_t>(flow_order_, options_.order / 2); // one step is all
         stale_ = true;
     }
@@ -282,6 +283,14 @@ private:
         auto const& l = lanes_[lane];
         return enclosure_detail::shortest_step(
             options_, l.cut && l.crossing < enclosure_detail::crossing_steps);
+    }
+    /// What runs at rest know of the families is of others.
+    void begin_sticking(std::size_t lane) {
+        ++begun_;
+        for (auto& s : sticking_) {
+            side_by_side::put(s.most, lane, infinity);
+            side_by_side::put(s.until, lane, -infinity);
+        }
     }
     /// The run of a flow at rest, with what it has to know of the families in these lanes.
     parametric_flow& at_rest(sticking& s, mask lanes);
@@ -472,11 +481,7 @@ void parametric_flow<Model>::begin(std::size_t lane, double time, box const& ini
     sharp_pays_ = true;
     lanes_[lane] = lane_state{};
     lanes_[lane].unknowns.emplace(std::move(unknowns));
-    ++begun_;
-    for (auto& s : sticking_) {
-        side_by_side::put(s.most, lane, infinity);
-        side_by_side::put(s.until, lane, -infinity);
-    }
+    begin_sticking(lane);
     running_ = running_ | side_by_side::only(lane);
     stale_ = true;
 }
