@@ -287,9 +287,13 @@ TEST_CASE("the unit of times and of readings changes nothing but numbers") {
         REQUIRE(a.stated.size() == b.stated.size());
         CHECK(b.stated[0].error == a.stated[0].error.times(scale));
         CHECK(b.stated[7].value == a.stated[7].value.times(scale));
-        auto const &p = base.protocol.bounds[0].scenarios[0].second,
-                   &q = other.protocol.bounds[0].scenarios[0].second;
-        CHECK_THAT(q.quantum, WithinRel(p.quantum * *nearest(scale), 1e-9));
-        CHECK(p.outliers == q.outliers);
+        auto const &p = base.protocol.bounds[0].candidates,
+                   &q = other.protocol.bounds[0].candidates;
+        REQUIRE(p.size() == q.size());
+        for (std::size_t k = 0; k < p.size(); ++k) {
+            CHECK_THAT(q[k].bound, WithinRel(p[k].bound * *nearest(scale), 1e-9));
+            CHECK(p[k].from == q[k].from);
+            CHECK(p[k].beyond == q[k].beyond);
+        }
     }
 }

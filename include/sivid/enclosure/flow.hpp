@@ -92,7 +92,7 @@ private:
     /// While so many states stick.
     flow(recorded_model const& model, parameter_choice const& choice,
          std::vector<signal> const& inputs, std::optional<region_of_runs> const& runs,
-         std::size_t resting);
+         std::size_t sticking);
     [[nodiscard]] tape with_jacobian(std::vector<node_id> const& values,
                                      std::vector<std::vector<node_id>> const& dx,
                                      std::vector<std::vector<node_id>> const& dp,

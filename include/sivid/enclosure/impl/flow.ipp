@@ -14,7 +14,7 @@ SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choic
 
 SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choice,
                       std::vector<signal> const& inputs, std::optional<region_of_runs> const& runs,
-                      std::size_t resting)
+                      std::size_t sticking)
     : model_(bind(model, choice, inputs, runs)), signals_(inputs.size()) {
     for (auto const i : model_.sampled) signals_[i] = std::get<sampled_signal>(inputs[i]);
     rate_ = tape(model_.g, model_.rate);
@@ -26,10 +26,10 @@ SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choic
         with_jacobian(model_.observe, model_.observe_dx, model_.observe_dp, observe_entries_);
     find_structure();
     constexpr std::size_t most = 2; // that stick at once: each is a flow of its own
-    if (uncertain() || resting == most) return;
-    for (auto const& r : resting_models(model, resting))
+    if (uncertain() || sticking == most) return;
+    for (auto const& r : resting_models(model, sticking))
         at_rest_.push_back({r.state, std::shared_ptr<flow const>(new flow(
-                                         r.model, choice, inputs, std::nullopt, resting + 1))});
+                                         r.model, choice, inputs, std::nullopt, sticking + 1))});
 }
 
 } // namespace sivid

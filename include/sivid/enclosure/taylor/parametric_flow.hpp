@@ -489,8 +489,8 @@ void parametric_flow<Model>::accept(trial const& t) {
     auto const n = flow_->states();
     mask const moved = t.lanes;
     C const length = t.to - set_.time; // off by less than a unit
-    std::vector<mask> at_rest;
-    for (auto& s : sticking_) at_rest.push_back(t.smooth() ? mask{} : stops(s, t));
+    std::vector<mask> stopped;
+    for (auto& s : sticking_) stopped.push_back(t.smooth() ? mask{} : stops(s, t));
     auto end = centre_at_end(t, length);
     auto const added = added_by_last_variation(t, length);
     if (!side_by_side::all(t.jumps | !moved)) carry_generators(t, length, end.lost);
@@ -509,10 +509,10 @@ void parametric_flow<Model>::accept(trial const& t) {
     set_.reduce(most_columns(n), end.lost, running_);
     set_.append(end.lost);
     set_.measure();
-    for (std::size_t k = 0; k < at_rest.size(); ++k) {
+    for (std::size_t k = 0; k < stopped.size(); ++k) {
         auto& s = sticking_[k];
-        set_.rest(at_rest[k], s.state);
-        s.until = side_by_side::select(at_rest[k], set_.time, s.until);
+        set_.rest(stopped[k], s.state);
+        s.until = side_by_side::select(stopped[k], set_.time, s.until);
     }
     adapt_flow_order(moved, t.order, t.flow_order, added);
     if (t.smooth()) adapt_order(moved, length, clamped);

@@ -87,9 +87,11 @@ inline void read_verdict(json_value const& root, stored_identification& result) 
 /// Hulls, and the paving of products if they are of one.
 inline void read_hulls(json_value const& root, stored_identification& result) {
     auto const& parameters = root.at("parameters");
-    for (std::size_t j = 0; j < parameters.members().size(); ++j)
+    for (std::size_t j = 0; j < parameters.members().size(); ++j) {
+        auto const& own = parameters.members()[j];
         result.parameters.push_back(
-            {parameters.name_of(j), outward(parameters.members()[j].at("hull"))});
+            {parameters.name_of(j), outward(own.at("hull")), own.at("unit").any_string()});
+    }
     auto const* const products = root.find("products");
     if (products == nullptr) return;
     result.products.emplace();

@@ -24,6 +24,7 @@ struct stored_identification {
     struct bound {
         std::string name;
         interval range;
+        std::string unit{};
     };
     struct witness_point {
         std::map<std::string, double> parameters;
