@@ -190,7 +190,7 @@ TEST_CASE("gains whose slew is not kept are not excluded") {
             auto const what = sivid::parse_requirement(
                 closed.with_slews(holds ? "always(x0 < 2)" : "x0 at end > 2"), p.model, end);
             auto const found =
-                sivid::find_gains(p, {"K"}, what, all_feasible(p), {{.seconds = 2}, 200, 1e-2});
+                sivid::find_gains(p, {"K"}, what, all_feasible(p), {{.seconds = 20}, 200, 1e-2});
             CHECK(found.some_proved() == (kept && holds));
             CHECK(found.none_exists() == (kept && !holds));
             CHECK(found.unknown == !kept);
