@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -74,12 +76,31 @@ public:
     [[nodiscard]] std::vector<std::size_t> const& uncertain_inputs() const {
         return model_.uncertain;
     }
-    /// The flow while a state sticks at 0 by its sign: its outputs are conditions
-    /// (`resting_models`). None where inputs have error bounds.
-    struct resting {
-        std::size_t state = 0;
-        std::shared_ptr<flow const> equations;
+    /// A state that may stick at 0 by its sign.
+    class resting {
+    public:
+        resting(std::size_t state, std::function<std::unique_ptr<flow const>()> make)
+            : state_(state), equations_(std::make_shared<lazy>()) {
+            equations_->make = std::move(make);
+        }
+        [[nodiscard]] std::size_t state() const { return state_; }
+        /// The flow while it does, made when it is asked for first, by any thread: its outputs are
+        /// conditions (`resting_models`).
+        [[nodiscard]] flow const& equations() const {
+            std::call_once(equations_->once, [this] { equations_->made = equations_->make(); });
+            return *equations_->made;
+        }
+
+    private:
+        struct lazy {
+            std::function<std::unique_ptr<flow const>()> make;
+            std::once_flag once;
+            std::unique_ptr<flow const> made;
+        };
+        std::size_t state_;
+        std::shared_ptr<lazy> equations_;
     };
+    /// None where inputs have error bounds.
     [[nodiscard]] std::vector<resting> const& at_rest() const { return at_rest_; }
     /// First knot of a sampled input strictly after t, or +infinity.
     [[nodiscard]] double next_knot(double t) const {

@@ -165,3 +165,22 @@ TEST_CASE("what sticks needs no higher order than its options allow") {
         CHECK(mag(run.set().hull()[0]) < 1e-100);
     }
 }
+
+TEST_CASE("signs that multiply each other, or push away from 0, have no flow at rest") {
+    auto const states = [](auto const& rate) {
+        auto const f = support::flow_of(support::model_of({2, 1}, rate));
+        return f->at_rest().size();
+    };
+    CHECK(states([](auto const&, auto const& x, auto const& p, auto const&) {
+              return std::vector{-p[0] * sign(x[0]), x[0] - p[0] * sign(x[1])};
+          }) == 2);
+    // Of solutions in Filippov's sense: both at 0, s0 s1 is anything in [-1, 1], whatever s0 and
+    // s1.
+    CHECK(states([](auto const&, auto const& x, auto const& p, auto const&) {
+              auto const s = sign(x[0]), r = sign(x[1]);
+              return std::vector{-p[0] * s + 0.5 * s * r, x[0] - p[0] * r};
+          }) == 0);
+    CHECK(states([](auto const&, auto const& x, auto const&, auto const&) {
+              return std::vector{sign(x[0]) + 0 * x[1], sign(x[1]) - sign(x[0])};
+          }) == 1);
+}

@@ -86,7 +86,7 @@ public:
         for (std::size_t size = 3; size <= options_.most_effects && !stopped_; ++size) {
             if (explained(size - 1)) break;
             join_one_more(size, most_joined);
-            }
+        }
         polish();
         if (!stopped_ && !explained(catalogue_.size())) go_beyond();
     }

@@ -25,11 +25,14 @@ SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choic
     observe_jacobian_ =
         with_jacobian(model_.observe, model_.observe_dx, model_.observe_dp, observe_entries_);
     find_structure();
-    constexpr std::size_t most = 2; // that stick at once: each is a flow of its own
+    constexpr std::size_t most = 2; // that stick at once: each pair is a flow of its own
     if (uncertain() || sticking == most) return;
-    for (auto const& r : resting_models(model, sticking))
-        at_rest_.push_back({r.state, std::shared_ptr<flow const>(new flow(
-                                         r.model, choice, inputs, std::nullopt, sticking + 1))});
+    for (auto& r : resting_models(model, sticking)) {
+        at_rest_.emplace_back(r.state, [=, own = std::move(r.model)] {
+            return std::unique_ptr<flow const>(
+                new flow(own, choice, inputs, std::nullopt, sticking + 1));
+        });
+    }
 }
 
 } // namespace sivid

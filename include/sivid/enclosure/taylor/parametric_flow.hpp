@@ -676,8 +676,8 @@ parametric_flow<Model>::stays(C const& from, C const& h, std::vector<tube_entry>
 template <class Model>
 parametric_flow<Model>& parametric_flow<Model>::at_rest(sticking& s, mask lanes) {
     if (!s.run) {
-        s.run = std::make_unique<parametric_flow>(*s.equations, options_, shape_->variables,
-                                                  shape_->degree);
+        s.run = std::make_unique<parametric_flow>(s.equations->equations(), options_,
+                                                  shape_->variables, shape_->degree);
     }
     auto& run = *s.run;
     if (run.known_ != begun_) {
@@ -745,14 +745,15 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::stick(mask able, C
             bool const ended = run.lanes_[l].failure.has_value();
             if (!ended && !side_by_side::test(went, l)) continue; // tries a shorter step
             double const start = side_by_side::get(from, l);
-            double const half = 0.25 * side_by_side::get(h, l);
-            if (ended || !(half > 64 * options_.shortest_step())) {
+            // Up to where something is torn off, in quarters of what is left; the rest by series.
+            double const shorter = 0.25 * side_by_side::get(h, l);
+            if (ended || !(shorter > 64 * options_.shortest_step())) {
                 side_by_side::put(s.until, l,
                                   std::min(side_by_side::get(limit, l), flow_->next_knot(start)));
                 side_by_side::put(s.most, l, infinity);
                 run.lanes_[l] = lane_state{};
             } else {
-                side_by_side::put(s.most, l, half);
+                side_by_side::put(s.most, l, shorter);
             }
         }
         stale_ = stale_ || side_by_side::any(good);
@@ -789,6 +790,8 @@ typename parametric_flow<Model>::mask parametric_flow<Model>::land(mask able, C 
         C const reach = set_.reach[s.state];
         C const far = side_by_side::max(range.upper, -range.lower) + reach;
         C const across = (range.upper - range.lower) + reach * 2.0;
+        // Landing in one step loses what jumps for as long as it takes: about as long as the
+        // members differ anyway. Farther away, smooth steps come nearer first.
         mask const near = able & rough & !landed & (far > C(0.0)) & (far <= across * 3.0);
         if (!side_by_side::any(near)) continue;
         std::vector<tube_entry> here;

@@ -2,6 +2,7 @@
 #ifndef SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_FAULTS_HPP
 #define SIVID_DIAGNOSIS_SENSOR_DETAIL_SENSOR_FAULTS_HPP
 
+#include <sivid/model/change/detail/with_equations.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/model/sampling.hpp>
@@ -158,16 +159,10 @@ inline void correct_state(identification_problem& problem, identification_proble
         auto const k = static_cast<std::size_t>(n.index);
         return n.op == operation::state && k == f.state ? state : to.leaf(n.op, k);
     };
-    model.stated.reset();
-    model.rate = copy_into(g, source.model.g, source.model.rate, corrected);
-    model.observe = copy_into(g, source.model.g, source.model.observe, corrected);
-    model.observe[f.channel] = shown;
-    for (auto& a : model.added_states) {
-        a.at_begin = copy_into(g, source.model.g, {a.at_begin}, same_leaf{}).front();
-    }
-    for (auto& d : model.derived)
-        d.value = copy_into(g, source.model.g, {d.value}, same_leaf{}).front();
-    model.g = std::move(g);
+    auto const rates = copy_into(g, model.g, model.rate, corrected);
+    auto outputs = copy_into(g, model.g, model.observe, corrected);
+    outputs[f.channel] = shown;
+    model = with_equations(std::move(model), std::move(g), rates, outputs);
     problem.prior = box(sides.size());
     for (std::size_t j = 0; j < sides.size(); ++j) problem.prior[j] = sides[j];
 }

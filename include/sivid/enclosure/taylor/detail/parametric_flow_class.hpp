@@ -111,8 +111,7 @@ public:
         if (f.uncertain()) perturbed_.emplace(f, *column_shape_);
         disturbed_.resize(f.states());
         order_ = std::min(order_, options_.order);
-        for (auto const& r : f.at_rest())
-            sticking_.push_back({r.state, r.equations.get(), nullptr});
+        for (auto const& r : f.at_rest()) sticking_.push_back({r.state(), &r, nullptr});
     }
 
     /// Starts the family of one lane; what the other lanes do goes on.
@@ -229,7 +228,7 @@ private:
     /// A state that may stick at 0, and the flow while it does.
     struct sticking {
         std::size_t state;
-        flow const* equations;
+        flow::resting const* equations;
         std::unique_ptr<parametric_flow> run; ///< made when it is needed
         C most = C(infinity);                 ///< the longest step to try
         C until{};                            ///< not before that time: it does not stick

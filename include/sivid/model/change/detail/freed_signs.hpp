@@ -23,6 +23,9 @@ public:
     };
 
     explicit freed_signs(recorded_model const& model) : inputs_(model.about.inputs.size()) {
+        bool const any = std::any_of(model.g.nodes().begin(), model.g.nodes().end(),
+                                     [](node const& n) { return n.op == operation::sign; });
+        if (!any) return; // nothing is copied
         outputs_ = model.rate;
         outputs_.insert(outputs_.end(), model.observe.begin(), model.observe.end());
         auto const free = [this](node const& n, node_id a, node_id b, graph& to) {
@@ -42,12 +45,12 @@ public:
     [[nodiscard]] graph const& nodes() const { return g_; }
     [[nodiscard]] graph& nodes() { return g_; }
     [[nodiscard]] std::vector<sign_of> const& signs() const { return signs_; }
-    /// Rates, then outputs.
+    /// Rates, then outputs; none where there are no signs.
     [[nodiscard]] std::vector<node_id> const& outputs() const { return outputs_; }
-    /// Whether a node is made of the sign k.
-    [[nodiscard]] bool made_of(node_id i, std::size_t k) const {
+    /// Whether a node is made of signs.
+    [[nodiscard]] bool jumps(node_id i) const {
         auto const all = leaves_of(g_, {i}, operation::input);
-        return std::find(all.begin(), all.end(), inputs_ + k) != all.end();
+        return std::any_of(all.begin(), all.end(), [this](auto k) { return k >= inputs_; });
     }
     /// y', in which s stands.
     [[nodiscard]] node_id rate_of(sign_of const& s) {
@@ -82,21 +85,6 @@ private:
     std::vector<node_id> outputs_, states_;
     std::vector<sign_of> signs_;
 };
-
-/// A model with these rates and outputs.
-/// @param g  their nodes
-[[nodiscard]] inline recorded_model with_equations(recorded_model model, graph g,
-                                                   std::vector<node_id> const& rates,
-                                                   std::vector<node_id> const& outputs) {
-    for (auto& a : model.added_states)
-        a.at_begin = copy_into(g, model.g, {a.at_begin}, same_leaf{}).front();
-    for (auto& d : model.derived) d.value = copy_into(g, model.g, {d.value}, same_leaf{}).front();
-    model.rate = rates;
-    model.observe = outputs;
-    model.g = std::move(g);
-    model.stated.reset();
-    return model;
-}
 
 } // namespace sivid
 

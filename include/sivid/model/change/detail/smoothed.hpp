@@ -3,6 +3,7 @@
 #define SIVID_MODEL_CHANGE_DETAIL_SMOOTHED_HPP
 
 #include <sivid/compiled.hpp>
+#include <sivid/model/change/detail/with_equations.hpp>
 #include <sivid/model/graph/graph_range.hpp>
 #include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/model.hpp>
@@ -12,6 +13,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -37,16 +39,15 @@ struct smoothed_model {
 [[nodiscard]] inline smoothed_model smoothed(recorded_model const& model,
                                              std::function<double(node const&)> const& width_of) {
     smoothed_model result{model, {}};
-    auto& made = result.model;
-    made.g = graph();
-    made.stated.reset();
+    auto& about = result.model.about;
+    graph made;
     auto const modulus = [&](node_id x, double width, graph& to) {
         double const of_states = std::exp2(std::round(std::log2(width)));
         bool const of_time = (to.depends(x) & on_state) == 0;
         double const epsilon = of_time ? of_states * 0x1p-20 : of_states;
-        auto const w = to.leaf(operation::input, made.about.inputs.size());
+        auto const w = to.leaf(operation::input, about.inputs.size());
         result.bounds.push_back(epsilon / 2);
-        made.about.inputs.push_back({"kink " + std::to_string(result.bounds.size()), ""});
+        about.inputs.push_back({"kink " + std::to_string(result.bounds.size()), ""});
         auto const inner = to.add(to.unary(operation::sqr, x), to.constant(epsilon * epsilon));
         auto const low = to.sub(to.unary(operation::sqrt, inner), to.constant(epsilon / 2));
         return to.add(low, w);
@@ -66,16 +67,10 @@ struct smoothed_model {
     };
     auto outputs = model.rate;
     outputs.insert(outputs.end(), model.observe.begin(), model.observe.end());
-    auto const images = copy_into(made.g, model.g, outputs, same_leaf{}, make);
-    auto image = images.begin();
-    for (auto* list : {&made.rate, &made.observe}) {
-        for (auto& node : *list) node = *image++;
-    }
-    for (auto& a : made.added_states) {
-        a.at_begin = copy_into(made.g, model.g, {a.at_begin}, same_leaf{}).front();
-    }
-    for (auto& d : made.derived)
-        d.value = copy_into(made.g, model.g, {d.value}, same_leaf{}).front();
+    auto const images = copy_into(made, model.g, outputs, same_leaf{}, make);
+    auto const rates = images.begin() + static_cast<std::ptrdiff_t>(model.rate.size());
+    result.model = with_equations(std::move(result.model), std::move(made), {images.begin(), rates},
+                                  {rates, images.end()});
     return result;
 }
 
