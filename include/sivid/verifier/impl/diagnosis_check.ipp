@@ -102,17 +102,6 @@ public:
                                              : outcome::undecided;
     }
 
-    /// Whether a search finds parameters for which the factor is `most` at most, where nobody says
-    /// which they are.
-    [[nodiscard]] outcome found_at_most(identification_problem const& p, double most,
-                                        double share) const {
-        if (p.model.has_memory()) return outcome::undecided;
-        auto const found = bounds(p, share * limit_->seconds());
-        return !io_detail::below(most, found.upper()) ? outcome::verified
-               : found.lower() > most                 ? outcome::refuted
-                                                      : outcome::undecided;
-    }
-
     /// Whether no parameter explains the data while all bounds are `least` times as wide, or less.
     /// @param share  of the time that is left
     [[nodiscard]] outcome at_least(identification_problem const& p, double least,
@@ -442,19 +431,18 @@ private:
         return all.finding("assumptions", "those of the problem and of every claim");
     }
 
-    /// The upper end of an inflation, by its witness, or a search where none is stated.
+    /// The upper end of an inflation, by its witness.
     /// @param assumptions  receives what the proof rests on
     [[nodiscard]] outcome upper_end(identification_problem const& p, interval const& stated,
-                                    std::optional<named_witness> const& w, double share,
+                                    std::optional<named_witness> const& w,
                                     std::vector<std::string>& assumptions) const {
         if (!claims_upper(stated)) return outcome::nothing;
-        return w ? proof_.at_most(p, *w, stated.upper(), &assumptions)
-                 : proof_.found_at_most(p, stated.upper(), share);
+        return w ? proof_.at_most(p, *w, stated.upper(), &assumptions) : outcome::undecided;
     }
     /// Both ends of an inflation: the upper one as `upper_end` found it, the lower one by a search.
     void ends(identification_problem const& p, interval const& stated, outcome upper, double share,
               finding_of_all& all) const {
-        all.note(upper, "the upper bound is not shown by its witness, or by a search");
+        all.note(upper, "the upper bound is not shown by its witness");
         if (stated.lower() > 0)
             all.note(proof_.at_least(p, stated.lower(), share),
                      "the lower bound is not proved within the budget, or not true");
@@ -462,7 +450,7 @@ private:
 
     [[nodiscard]] check_finding gap() {
         finding_of_all all;
-        base_upper_ = upper_end(*base_, d_->inflation, d_->witness, 0.25, base_assumptions_);
+        base_upper_ = upper_end(*base_, d_->inflation, d_->witness, base_assumptions_);
         ends(*base_, d_->inflation, base_upper_, 0.25, all);
         auto const words = std::string{to_string(d_->gap)};
         auto found = all.finding("gap", words + ", both bounds of its inflation");
@@ -590,9 +578,8 @@ private:
         double const share = 1.0 / static_cast<double>(d_->causes.size() - k + 2);
         bool const by_relation = c.verdict == cause_verdict::excluded && !c.excluded_by.empty();
         std::vector<std::string> of_run;
-        auto const upper = carried(*p, c, of_run)
-                               ? outcome::verified
-                               : upper_end(*p, c.inflation, c.witness, share, of_run);
+        auto const upper = carried(*p, c, of_run) ? outcome::verified
+                                                  : upper_end(*p, c.inflation, c.witness, of_run);
         ends(*p, c.inflation, upper, share, all);
         if (c.verdict == cause_verdict::explains && !c.witness)
             all.note(outcome::undecided, "it explains the data, but no witness is stated");

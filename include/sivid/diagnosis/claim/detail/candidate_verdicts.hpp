@@ -146,6 +146,8 @@ private:
                 auto const found = bound_inflation(s.problem, &s.fit, search);
                 spent += diagnosis_effort::boxes_of(s.problem, found);
                 proved = found.value;
+                if (auto const& w = found.witness; w && proved.upper() < c.inflation.upper())
+                    c.witness = named(s.problem, w->parameters, w->starts);
             }
             left -= std::min(left, spent);
             c.inflation = intersect(c.inflation, proved); // both contain it
