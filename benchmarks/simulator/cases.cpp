@@ -92,7 +92,8 @@ void draw(std::size_t count, unsigned seed, fs::path const& out) {
         if (kind < c.robot.kinds.size()) {
             auto const& drawn = c.robot.kinds[kind];
             double const size = uniform(random, drawn.lower, drawn.upper);
-            c.truth = {drawn.name, std::round(size * 2000) / 2000, drawn.in_catalogue};
+            c.truth = {drawn.name, std::round(size * 2000) / 2000, drawn.in_catalogue, drawn.by,
+                       drawn.where};
         }
         write_case(c, random, out / "cases" / c.id);
         json constants;

@@ -129,10 +129,15 @@ inputs = "u -= k*w*abs(w)"
     m.draw = [](std::mt19937_64& r) {
         return values{uniform(r, 0.45, 0.55), uniform(r, 0.005, 0.02)};
     };
-    m.kinds = {
-        {"coulomb", 0.03, 0.1},  {"armature", 0.004, 0.015}, {"command_delay", 0.02, 0.06},
-        {"payload", 0.03, 0.15}, {"weak_motor", 0.1, 0.35},  {"late_sensor", 0.02, 0.06},
-        {"longer", 0.02, 0.06},  {"rubber_stop", 1, 6},      {"backlash", 0.01, 0.03, false}};
+    m.kinds = {{"coulomb", 0.03, 0.1},
+               {"armature", 0.004, 0.015},
+               {"command_delay", 0.02, 0.06, way::by_input},
+               {"payload", 0.03, 0.15},
+               {"weak_motor", 0.1, 0.35},
+               {"late_sensor", 0.02, 0.06, way::by_channel},
+               {"longer", 0.02, 0.06},
+               {"rubber_stop", 1, 6, way::by_rubber},
+               {"backlash", 0.01, 0.03, way::by_file, 0, false}};
     m.law = [](double t, values const& q, values const& w, values const& d) {
         return values{held(1.2 * std::sin(q[0]) + 3 * (swing(t, d) - q[0]) - 0.15 * w[0], 3)};
     };
@@ -232,9 +237,12 @@ prior = "[-0.2, 0.2] rad"
         return values{uniform(r, 1.7, 2.3), uniform(r, 0.04, 0.06), uniform(r, 0.6, 1.5),
                       uniform(r, 0.03, 0.07)};
     };
-    m.kinds = {{"bearing_friction", 0.02, 0.06}, {"floor_tilt", 0.1, 0.4},
-               {"weak_left", 0.1, 0.3},          {"late_left", 0.05, 0.2},
-               {"late_compass", 0.05, 0.2},      {"rubber_wall", 3, 15}};
+    m.kinds = {{"bearing_friction", 0.02, 0.06},
+               {"floor_tilt", 0.1, 0.4},
+               {"weak_left", 0.1, 0.3},
+               {"late_left", 0.05, 0.2, way::by_input},
+               {"late_compass", 0.05, 0.2, way::by_channel, 2},
+               {"rubber_wall", 3, 15, way::by_rubber}};
     m.law = [](double t, values const&, values const&, values const& d) {
         double const s = swing(t, d), turn = 0.25 * std::sin(1.7 * d[1] * t + d[3]);
         return values{held(1.5 + s - turn, 4), held(1.5 + s + turn, 4)};
@@ -342,10 +350,13 @@ prior = "[-0.1, 0.1] rad"
     m.draw = [](std::mt19937_64& r) {
         return values{uniform(r, 0.45, 0.55), uniform(r, 0.05, 0.2), uniform(r, 0.05, 0.2)};
     };
-    m.kinds = {{"coulomb_1", 0.1, 0.3},      {"coulomb_2", 0.05, 0.2},
-               {"armature_2", 0.004, 0.015}, {"payload", 0.03, 0.15},
-               {"weak_motor_2", 0.15, 0.35}, {"late_command_2", 0.02, 0.06},
-               {"late_sensor_2", 0.02, 0.06}};
+    m.kinds = {{"coulomb_1", 0.1, 0.3},
+               {"coulomb_2", 0.05, 0.2},
+               {"armature_2", 0.004, 0.015},
+               {"payload", 0.03, 0.15},
+               {"weak_motor_2", 0.15, 0.35},
+               {"late_command_2", 0.02, 0.06, way::by_input, 1},
+               {"late_sensor_2", 0.02, 0.06, way::by_channel, 1}};
     m.law = [](double t, values const& q, values const& w, values const& d) {
         double const one = swing(t, d), two = 0.8 * std::sin(1.7 * d[1] * t + d[3]);
         return values{held(2 * std::sin(q[0]) + 6 * (one - q[0]) - 0.6 * w[0], 8),

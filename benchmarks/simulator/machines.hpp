@@ -19,11 +19,21 @@ inline double uniform(std::mt19937_64& random, double lower, double upper) {
     return lower + (upper - lower) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
+/// How something that is withheld comes into a machine.
+enum class way {
+    by_file,    ///< in the file for MuJoCo
+    by_input,   ///< one input acts late
+    by_channel, ///< one channel shows what was
+    by_rubber   ///< a spring beyond a place of the first joint, which no part of a file is
+};
+
 /// What is withheld: its name in the catalogue of the model, and its size. Empty: nothing is.
 struct withheld {
     std::string name{};
     double size = 0;
     bool in_catalogue = true;
+    way by = way::by_file;
+    std::size_t where = 0; ///< the input or channel
 };
 
 /// A robot: what it is in MuJoCo, and what its user knows of it.
@@ -42,6 +52,8 @@ struct machine {
     struct kind {
         std::string name;
         double lower, upper;
+        way by = way::by_file;
+        std::size_t where = 0;
         bool in_catalogue = true;
     };
     std::vector<kind> kinds;

@@ -46,13 +46,8 @@ std::vector<values> run(drawn_case const& c, mjModel& m, double step, double dur
     m.opt.timestep = step;
     std::unique_ptr<mjData, ends> const d{mj_makeData(&m)};
     d->qpos[0] = start;
-    bool const late = c.truth.name.starts_with("command_delay") ||
-                      c.truth.name.starts_with("late_left") ||
-                      c.truth.name.starts_with("late_command");
-    std::size_t const late_input = c.truth.name == "late_command_2" ? 1 : 0;
     auto const fine = std::lround(0.0005 / step), all = std::lround(duration / 0.0005);
-    auto const each = std::lround(sample / 0.0005),
-               by = late ? std::lround(c.truth.size / 0.0005) : 0;
+    auto const each = std::lround(sample / 0.0005), by = std::lround(c.truth.size / 0.0005);
     std::vector<values> path;
     for (long k = 0; k <= all; ++k) {
         path.emplace_back(d->qpos, d->qpos + c.robot.channels.size());
@@ -63,7 +58,8 @@ std::vector<values> run(drawn_case const& c, mjModel& m, double step, double dur
             commands.push_back(u);
         }
         for (std::size_t i = 0; i < c.robot.inputs.size(); ++i) {
-            long const from = i == late_input ? std::max(0L, k - by) : k;
+            bool const late = c.truth.by == way::by_input && c.truth.where == i;
+            long const from = late ? std::max(0L, k - by) : k;
             d->ctrl[i] = commands[static_cast<std::size_t>(from / each)][i];
         }
         if (k < all)
@@ -82,7 +78,7 @@ double farthest(std::vector<values> const& a, std::vector<values> const& b, std:
 
 record simulate(drawn_case const& c, std::mt19937_64& random, double duration) {
     auto const m = load(c.robot.mjcf(c.constants, c.truth));
-    stop = {c.truth.name.starts_with("rubber") ? c.truth.size : 0, c.robot.stop};
+    stop = {c.truth.by == way::by_rubber ? c.truth.size : 0, c.robot.stop};
     mjcb_passive = press;
     values const drawn{uniform(random, 0.4, 0.8), uniform(random, 1.5, 3),
                        uniform(random, 0.2, 0.5), uniform(random, 3.5, 6)};
@@ -95,17 +91,13 @@ record simulate(drawn_case const& c, std::mt19937_64& random, double duration) {
     for (std::size_t i = 0; i < c.robot.channels.size(); ++i)
         r.bounds.push_back(c.robot.noise[i] + c.robot.step[i] / 2 + 2 * farthest(coarse, path, i) +
                            2 * farthest(softer, path, i) + 1e-9);
-    std::size_t const late_channel = c.truth.name == "late_compass"    ? 2
-                                     : c.truth.name == "late_sensor_2" ? 1
-                                                                       : 0;
-    bool const late = c.truth.name.starts_with("late_sensor") || c.truth.name == "late_compass";
-    auto const each = std::lround(sample / 0.0005),
-               by = late ? std::lround(c.truth.size / 0.0005) : 0;
+    auto const each = std::lround(sample / 0.0005), by = std::lround(c.truth.size / 0.0005);
     for (long k = 0; k < static_cast<long>(path.size()); k += each) {
         r.times.push_back(0.0005 * static_cast<double>(k));
         values row;
         for (std::size_t i = 0; i < c.robot.channels.size(); ++i) {
-            long const at = i == late_channel ? std::max(0L, k - by) : k;
+            bool const late = c.truth.by == way::by_channel && c.truth.where == i;
+            long const at = late ? std::max(0L, k - by) : k;
             double const seen = path[static_cast<std::size_t>(at)][i] +
                                 uniform(random, -c.robot.noise[i], c.robot.noise[i]);
             row.push_back(std::round(seen / c.robot.step[i]) * c.robot.step[i]);
