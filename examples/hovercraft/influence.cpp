@@ -9,7 +9,6 @@
 #include <sivid/report/page.hpp>
 
 #include <algorithm>
-#include <iostream>
 
 namespace hovercraft_example {
 
@@ -107,10 +106,11 @@ report::figure bars_of(std::vector<ranked_equation> const& ranking) {
         if (bars.empty()) continue;
         figure.panels.push_back(report::draw_bar_chart(
             bars, {.title = e.state + "'", .quantity = "effect", .unit = e.unit}));
-        std::cout << e.state << "':";
+        sivid::app::result_stream() << e.state << "':";
         for (auto const& b : bars)
-            std::cout << " " << b.label << " " << report::outward_text(b.value, {.significant = 2});
-        std::cout << "\n";
+            sivid::app::result_stream()
+                << " " << b.label << " " << report::outward_text(b.value, {.significant = 2});
+        sivid::app::result_stream() << "\n";
     }
     return figure;
 }
@@ -163,13 +163,13 @@ int influence(sivid::recorded_model const& model, std::filesystem::path const& o
     page.footer(sivid::app::page_footer(command_line));
     for (auto const& row : table.rows)
         if (row[3].find("does not occur") == 0 || row[3].find("is no constant") == 0)
-            std::cout << "the report calls " << row[1] << " " << row[2] << " for " << row[0]
-                      << ", but it " << row[3] << "\n";
+            sivid::app::result_stream() << "the report calls " << row[1] << " " << row[2] << " for "
+                                        << row[0] << ", but it " << row[3] << "\n";
     sivid::file_set files(out);
     files.add("influence.csv", ranking_csv(ranking));
     files.add("influence.html", page.str());
     files.commit();
-    std::cout << "written: " << (out / "influence.html").string() << "\n";
+    sivid::app::result_stream() << "written: " << (out / "influence.html").string() << "\n";
     return sivid::app::done;
 }
 

@@ -4,4 +4,8 @@
 
 #include <sivid/app/app.hpp>
 
-int main(int argc, char** argv) { return sivid::app::run(hovercraft_example::craft(), argc, argv); }
+#include <iostream>
+
+int main(int argc, char** argv) {
+    return sivid::app::run(hovercraft_example::craft(), argc, argv, {std::cout, std::cerr});
+}

@@ -3,6 +3,7 @@
 #include <sivid/app/app.hpp>
 #include <sivid/model/effects.hpp>
 
+#include <iostream>
 #include <vector>
 
 namespace {
@@ -55,5 +56,5 @@ std::vector<sivid::effect> catalogue() {
 int main(int argc, char** argv) {
     auto const robot = sivid::app::robot_of(
         "own_robot", "What a model of a geared motor leaves out", geared_motor{}, catalogue());
-    return sivid::app::run(robot, argc, argv);
+    return sivid::app::run(robot, argc, argv, {std::cout, std::cerr});
 }

@@ -7,6 +7,7 @@
 #include <sivid/text/read_model.hpp>
 
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +26,8 @@ bool asks_for_help(std::string_view word) { return word == "--help" || word == "
 int run_without_model(int argc, char** argv, std::string const& file = "MODEL.toml") {
     sivid::text_model none;
     none.about = usage;
-    return sivid::app::run(sivid::app::robot_of_text("sivid", file, none), argc, argv);
+    return sivid::app::run(sivid::app::robot_of_text("sivid", file, none), argc, argv,
+                           {std::cout, std::cerr});
 }
 bool is_import(std::string_view command, std::filesystem::path const& file) {
     return command == "import" && file.extension() != ".toml";
@@ -57,7 +59,7 @@ int main(int argc, char** argv) {
     }
     if (is_import(argv[1], argv[2])) return run_without_model(argc, argv, "");
     std::optional<sivid::app::robot> robot;
-    int const code = sivid::app::guarded("sivid", [&] {
+    int const code = sivid::app::guarded("sivid", {std::cout, std::cerr}, [&] {
         robot = sivid::app::robot_of_text("sivid", argv[2], model_in(argv[2]));
         return sivid::app::done;
     });
@@ -65,5 +67,5 @@ int main(int argc, char** argv) {
     std::vector<char*> rest(argv, argv + argc);
     rest.erase(rest.begin() + 2);
     rest.push_back(nullptr);
-    return sivid::app::run(*robot, argc - 1, rest.data());
+    return sivid::app::run(*robot, argc - 1, rest.data(), {std::cout, std::cerr});
 }

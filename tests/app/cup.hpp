@@ -70,11 +70,7 @@ inline finished run(std::vector<std::string> words, sivid::app::robot const& r =
     for (auto& w : words) argv.push_back(w.data());
     argv.push_back(nullptr);
     std::ostringstream out, err;
-    auto* const own_out = std::cout.rdbuf(out.rdbuf());
-    auto* const own_err = std::cerr.rdbuf(err.rdbuf());
-    int const code = sivid::app::run(r, static_cast<int>(words.size()), argv.data());
-    std::cout.rdbuf(own_out);
-    std::cerr.rdbuf(own_err);
+    int const code = sivid::app::run(r, static_cast<int>(words.size()), argv.data(), {out, err});
     return {code, out.str(), err.str()};
 }
 

@@ -40,7 +40,8 @@ int cut_windows(int argc, char** argv) {
     if (std::filesystem::exists(folder / "validation_200Hz.csv"))
         add("validation_200Hz.csv", "validation", sivid::scenario_role::holdout);
     sivid::write_dataset(data, sivid::names_of(sivid::record_model(linear_axis{}).about), out);
-    std::cout << "written: " << data.scenarios.size() << " windows in " << out.string() << "\n";
+    sivid::app::result_stream() << "written: " << data.scenarios.size() << " windows in "
+                                << out.string() << "\n";
     return sivid::app::done;
 }
 
@@ -50,5 +51,5 @@ int main(int argc, char** argv) {
     auto robot = sivid::app::robot_of("servo_axis", "What a mass with viscous friction leaves out",
                                       linear_axis{}, servo::axis_catalogue());
     robot.commands = {{"windows", "cut the records of the axis into windows", cut_windows}};
-    return sivid::app::run(robot, argc, argv);
+    return sivid::app::run(robot, argc, argv, {std::cout, std::cerr});
 }

@@ -3,6 +3,7 @@
 #define SIVID_APP_APP_HPP
 
 #include <sivid/app/console.hpp>
+#include <sivid/app/outputs.hpp>
 #include <sivid/app/robot.hpp>
 #include <sivid/compiled.hpp>
 
@@ -15,11 +16,11 @@ namespace sivid::app {
 /// import, simulate, generate, identify, online, confidence, check, certificate, diagnose, predict,
 /// verify, control, design, rank, disturbance, report, export, describe and fleet (`commands.hpp`),
 /// and the robot's own. `PROGRAM COMMAND --help` lists options and an example.
-///   What it prints on the standard output are results; progress and errors go to the other one.
 ///   The first Ctrl-C ends the work, and what is proved by then is written; a second one ends the
 /// program. Files are written whole or not at all.
+/// @param to  where it prints: the standard streams, in a program of its own
 /// @returns  the exit code (`exit_code` in `program.hpp`); it does not throw
-[[nodiscard]] SIVID_DECL int run(robot const& r, int argc, char** argv);
+[[nodiscard]] SIVID_DECL int run(robot const& r, int argc, char** argv, outputs const& to);
 
 /// What a command within another program leaves beside its files.
 struct command_answer {
@@ -28,8 +29,8 @@ struct command_answer {
 };
 
 /// The same command within another program, an interpreter for instance, which has a terminal and
-/// ways to be interrupted of its own. One command runs at a time, and has std::cout and std::cerr
-/// for its own meanwhile; a second one waits for it.
+/// ways to be interrupted of its own. One command runs at a time; a second one waits for
+/// it.
 /// @param words  of the command line, without the program's name
 /// @throws  what the program has one message for (`failure_of` in `program.hpp`), words that there
 ///          are not as bad_request

@@ -2,6 +2,7 @@
 #ifndef SIVID_APP_CONSOLE_HPP
 #define SIVID_APP_CONSOLE_HPP
 
+#include <sivid/app/outputs.hpp>
 #include <sivid/version.hpp>
 
 #include <chrono>
@@ -9,7 +10,6 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -78,7 +78,7 @@ public:
         print(text, terminal_ ? "\r\x1b[K" : "", terminal_ ? "" : "\n");
     }
     void finish() {
-        if (shown_ && terminal_) std::cerr << '\n';
+        if (shown_ && terminal_) notice_stream() << '\n';
         shown_ = false;
     }
     [[nodiscard]] double elapsed() const {
@@ -90,7 +90,7 @@ private:
         char time[32];
         std::snprintf(time, sizeof time, "%7.1f s  ", elapsed());
         if (host_ != nullptr) return host_->progress(time + text);
-        std::cerr << (std::string{before} + time).append(text).append(behind) << std::flush;
+        notice_stream() << (std::string{before} + time).append(text).append(behind) << std::flush;
     }
 
     using clock = std::chrono::steady_clock;

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -33,7 +32,7 @@ inline int import_files(std::filesystem::path const& mapping, std::filesystem::p
 #endif
     auto const imported = import_dataset(read_import_mapping(mapping), tools);
     write_import(imported, out);
-    if (!quiet) std::cout << imported.protocol.text();
+    if (!quiet) result_stream() << imported.protocol.text();
     return done;
 }
 
@@ -77,7 +76,7 @@ inline int import_robot(std::filesystem::path const& file, std::filesystem::path
     files.add("import.txt", about);
     files.add("robot.toml", text.model);
     files.commit();
-    if (!quiet) std::cout << about;
+    if (!quiet) result_stream() << about;
     return done;
 #else
     throw bad_request("this program was built without liburdfdom; install liburdfdom-dev and "

@@ -2,6 +2,7 @@
 #ifndef SIVID_APP_PROGRAM_HPP
 #define SIVID_APP_PROGRAM_HPP
 
+#include <sivid/app/outputs.hpp>
 #include <sivid/io/input_error.hpp>
 #include <sivid/io/text/exact_decimal.hpp>
 #include <sivid/io/text/printable_text.hpp>
@@ -11,7 +12,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -45,11 +45,10 @@ inline std::string command_line(std::string program, int argc, char** argv) {
     return program;
 }
 
-/// What was printed has arrived. (Ranks that help have set failbit: they print nothing.)
+/// What was printed has arrived.
 /// @throws output_error
 inline void require_printed() {
-    std::cout.flush();
-    if (std::cout.bad() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    if (!result_stream().flush())
         throw output_error("the standard output cannot be written; check permissions and "
                            "space");
 }
@@ -78,9 +77,10 @@ inline failure failure_of(std::exception const& e) {
     return refused ? failure{bad_input, text} : failure{internal_error, "internal error: " + text};
 }
 
-/// Runs a program and turns what it throws into one message and an exit code.
+/// Runs a program that speaks there, and turns what it throws into one message and an exit code.
 template <class Program>
-int guarded(std::string const& name, Program const& program) {
+int guarded(std::string const& name, outputs const& to, Program const& program) {
+    detail::speaking const there(to);
 #ifdef SIGXFSZ
     std::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit is an error of writing, with a message
 #endif
@@ -90,7 +90,7 @@ int guarded(std::string const& name, Program const& program) {
         return code;
     } catch (std::exception const& e) {
         auto const failed = failure_of(e);
-        std::cerr << name << ": " << failed.words << "\n";
+        to.notices << name << ": " << failed.words << "\n";
         return failed.code;
     }
 }

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -54,7 +53,7 @@ public:
 #else
     [[nodiscard]] static std::size_t size() { return 1; }
     [[nodiscard]] static std::size_t rank() { return 0; }
-    [[noreturn]] static void end_all(int code) { std::exit(code); }
+    static void end_all(int /*code*/) {} // there are no others
 #endif
     [[nodiscard]] bool several() const { return size() > 1; }
     /// Whether this one helps rank 0.
@@ -79,30 +78,25 @@ private:
 /// `guarded` for a program of several ranks: an error of one ends all. All ranks read the same
 /// command and the same data, so most errors are everybody's; rank 0 tells them.
 template <class Program>
-int guarded_on_ranks(std::string const& name, int& argc, char**& argv, Program const& program) {
+int guarded_on_ranks(std::string const& name, int& argc, char**& argv, outputs const& to,
+                     Program const& program) {
     std::optional<ranks> all;
-    int code = guarded(name, [&] {
+    int code = guarded(name, to, [&] {
         all.emplace(argc, argv);
         return 0;
     });
     if (!all) return code;
-    std::ostringstream kept;
-    auto* const errors = std::cerr.rdbuf();
-    if (all->helps()) {
-        std::cerr.rdbuf(kept.rdbuf());
-        std::cout.setstate(std::ios::failbit);
-    }
-    code = guarded(name, [&] { return program(*all); });
-    std::cerr.rdbuf(errors);
+    std::ostringstream unheard, kept;
+    code = guarded(name, all->helps() ? outputs{unheard, kept} : to, [&] { return program(*all); });
     bool const failed = code == bad_input || code == internal_error;
     if (failed && all->several()) {
         if (all->helps()) { // unless rank 0 has ended the job by then, it is this one's alone
             std::this_thread::sleep_for(std::chrono::seconds(2));
             // At once, lest what others write come in between.
             auto const words = "rank " + std::to_string(all->rank()) + ": " + kept.str();
-            std::cerr << words << std::flush;
+            to.notices << words << std::flush;
         }
-        std::cout << std::flush;
+        to.results << std::flush;
         ranks::end_all(code);
     }
     if (code != done && all->several() && !all->helps()) {

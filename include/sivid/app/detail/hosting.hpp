@@ -4,28 +4,10 @@
 
 #include <sivid/app/console.hpp>
 
-#include <iostream>
 #include <mutex>
-#include <sstream>
-#include <string>
 
 /// How another program, Python for instance, runs a command within itself.
 namespace sivid::app::detail {
-
-/// For as long as it lives, keeps what a stream is given.
-class kept_stream {
-public:
-    explicit kept_stream(std::ostream& s) : stream_{s}, own_{s.rdbuf(kept_.rdbuf())} {}
-    ~kept_stream() { stream_.rdbuf(own_); }
-    kept_stream(kept_stream const&) = delete;
-    kept_stream& operator=(kept_stream const&) = delete;
-    [[nodiscard]] std::string text() const { return kept_.str(); }
-
-private:
-    std::ostringstream kept_;
-    std::ostream& stream_;
-    std::streambuf* own_;
-};
 
 /// For as long as it lives, a command has a host; one at a time.
 class hosting {

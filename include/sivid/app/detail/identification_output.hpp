@@ -30,7 +30,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,9 +40,9 @@ namespace sivid::app::detail {
 inline void print_tried(contraction_journal const& journal) {
     for (auto const& row : report::tried_table(journal).rows) {
         auto const &by = row[0], &ended = row[1], &why = row[2], &effort = row[3];
-        std::cout << "  " << by << ": " << ended;
-        if (!effort.empty()) std::cout << " (" << effort << ")";
-        std::cout << (why.empty() ? "\n" : "; " + why + "\n");
+        result_stream() << "  " << by << ": " << ended;
+        if (!effort.empty()) result_stream() << " (" << effort << ")";
+        result_stream() << (why.empty() ? "\n" : "; " + why + "\n");
     }
 }
 
@@ -136,10 +135,11 @@ inline int exit_code_of(verdict v) {
 inline void print_ranges(report::identification_view const& view, std::string const& indent) {
     for (auto const& p : view.parameters) {
         if (report::is_empty(p.hull)) continue;
-        std::cout << indent << p.name << " in " << report::outward_text_within(p.hull, p.prior)
-                  << (p.unit == "1" ? "" : " " + p.unit);
+        result_stream() << indent << p.name << " in "
+                        << report::outward_text_within(p.hull, p.prior)
+                        << (p.unit == "1" ? "" : " " + p.unit);
         auto const note = report::exclusion_note(view, p);
-        std::cout << (note.empty() ? "" : "  (" + note + ")") << "\n";
+        result_stream() << (note.empty() ? "" : "  (" + note + ")") << "\n";
     }
 }
 
@@ -181,8 +181,8 @@ public:
                 add_result(files, &*motion);
                 files.commit();
             } catch (output_error const& e) {
-                std::cerr << task_.of.name << ": no pictures of the motion in the report: "
-                          << printable_text(e.what(), 1000) << "\n";
+                notice_stream() << task_.of.name << ": no pictures of the motion in the report: "
+                                << printable_text(e.what(), 1000) << "\n";
                 whole = false;
             }
         }
@@ -194,21 +194,22 @@ public:
     void print() const {
         print_verdict();
         print_combinations();
-        std::cout << "  of the prior's volume: inside at least "
-                  << report::at_least_percent(view_.volume_inner.lo) << ", not excluded at most "
-                  << report::at_most_percent(view_.volume_outer.hi) << "\n";
+        result_stream() << "  of the prior's volume: inside at least "
+                        << report::at_least_percent(view_.volume_inner.lo)
+                        << ", not excluded at most "
+                        << report::at_most_percent(view_.volume_outer.hi) << "\n";
         if (!view_.inside_box.empty())
-            std::cout << "  explained by all of " << view_.inside_box << "\n";
+            result_stream() << "  explained by all of " << view_.inside_box << "\n";
         if (found_.witness) {
-            std::cout << "  verified witness:";
+            result_stream() << "  verified witness:";
             for (std::size_t j = 0; j < problem_.choice.unknown.size(); ++j)
-                std::cout << " " << problem_.choice.unknown[j] << "="
-                          << report::exact_text(found_.witness->parameters[j]);
-            std::cout << "\n";
+                result_stream() << " " << problem_.choice.unknown[j] << "="
+                                << report::exact_text(found_.witness->parameters[j]);
+            result_stream() << "\n";
         }
         print_outliers();
         if (task_.told.verbose) print_tried(view_.tried);
-        for (auto const& words : view_.statistics.why) std::cout << "  " << words << "\n";
+        for (auto const& words : view_.statistics.why) result_stream() << "  " << words << "\n";
         print_effort();
     }
 
@@ -289,26 +290,27 @@ private:
                                                     .legend = true});
                 auto const file = out() / (s.name + "." + series.name + ".svg");
                 write_durably(file, drawn.str());
-                std::cout << "picture: " << file.string() << "\n";
+                result_stream() << "picture: " << file.string() << "\n";
             }
         }
     }
 
     void print_verdict() const {
-        std::cout << task_.title << ": " << to_string(found_.verdict) << " ("
-                  << to_string(found_.reason) << ")\n";
+        result_stream() << task_.title << ": " << to_string(found_.verdict) << " ("
+                        << to_string(found_.reason) << ")\n";
         for (auto const& words : derivation_words(problem_.model, problem_.choice))
-            std::cout << "  " << words << "\n";
+            result_stream() << "  " << words << "\n";
         if (found_.verdict == verdict::inconsistent)
-            std::cout << "  no parameter in the prior explains the data: all of it is excluded by "
-                         "proof\n";
+            result_stream()
+                << "  no parameter in the prior explains the data: all of it is excluded by "
+                   "proof\n";
         print_ranges(view_, "  ");
     }
 
     void print_combinations() const {
         for (auto const& c : view_.combinations)
-            std::cout << "  " << report::formula_text(c.formula) << " in "
-                      << report::outward_text(c.hull) << " " << c.unit << "\n";
+            result_stream() << "  " << report::formula_text(c.formula) << " in "
+                            << report::outward_text(c.hull) << " " << c.unit << "\n";
         std::vector<std::string> combined, idle;
         for (auto const j : found_.entangled) {
             bool const stands =
@@ -317,56 +319,58 @@ private:
             (stands ? combined : idle).push_back(problem_.choice.unknown[j]);
         }
         if (!combined.empty())
-            std::cout << "  " << enumeration(combined)
-                      << " are only known through such combinations on these data\n";
+            result_stream() << "  " << enumeration(combined)
+                            << " are only known through such combinations on these data\n";
         for (auto const& name : idle)
-            std::cout << "  " << name << " stands nowhere in the equations of these data\n";
+            result_stream() << "  " << name << " stands nowhere in the equations of these data\n";
     }
 
     void print_outliers() const {
         if (!found_.forced.empty()) {
-            std::cout << "  proved outliers: " << found_.forced.size();
+            result_stream() << "  proved outliers: " << found_.forced.size();
             std::size_t const most = 6;
             for (std::size_t k = 0; k < std::min(most, found_.forced.size()); ++k) {
                 auto const& e = problem_.experiments[found_.forced[k].experiment];
                 auto const m = sorted(e.measurements)[found_.forced[k].measurement];
-                std::cout << (k == 0 ? ": " : ", ") << e.name << " "
-                          << problem_.model.about.channels[m.channel].name << " at "
-                          << report::given_text(m.time) << " " << problem_.model.about.time_unit;
+                result_stream() << (k == 0 ? ": " : ", ") << e.name << " "
+                                << problem_.model.about.channels[m.channel].name << " at "
+                                << report::given_text(m.time) << " "
+                                << problem_.model.about.time_unit;
             }
-            std::cout << (found_.forced.size() > most ? ", ...\n" : "\n");
+            result_stream() << (found_.forced.size() > most ? ", ...\n" : "\n");
         }
         if (!found_.fewest) return;
         auto const& total = found_.fewest->total;
-        std::cout << "  outliers needed: " << report::count_text(total.most);
+        result_stream() << "  outliers needed: " << report::count_text(total.most);
         if (total.exact()) {
-            std::cout << ", proved to be the fewest";
+            result_stream() << ", proved to be the fewest";
         } else {
-            std::cout << " suffice, at least " << report::count_text(total.least) << " by proof ("
-                      << to_string(found_.fewest->reason) << ")";
+            result_stream() << " suffice, at least " << report::count_text(total.least)
+                            << " by proof (" << to_string(found_.fewest->reason) << ")";
         }
         for (auto const& e : problem_.experiments) {
-            if (e.outliers > 0) std::cout << "; " << e.name << " " << e.outliers;
+            if (e.outliers > 0) result_stream() << "; " << e.name << " " << e.outliers;
         }
-        std::cout << "\n";
+        result_stream() << "\n";
     }
 
     void print_effort() const {
-        std::cout << "  " << report::duration_text(found_.seconds)
-                  << (found_.by_clock ? ", ended by the clock: a faster machine may say more" : "");
+        result_stream() << "  " << report::duration_text(found_.seconds)
+                        << (found_.by_clock ? ", ended by the clock: a faster machine may say more"
+                                            : "");
         if (found_.boxes > 0) // else nobody counted
-            std::cout << ", " << found_.boxes << " boxes, " << found_.integrations
-                      << " validated integrations";
-        std::cout << "\n  written: " << (out() / "report.html").string()
-                  << " and result.json, boxes.csv, outputs.csv beside it\n";
+            result_stream() << ", " << found_.boxes << " boxes, " << found_.integrations
+                            << " validated integrations";
+        result_stream() << "\n  written: " << (out() / "report.html").string()
+                        << " and result.json, boxes.csv, outputs.csv beside it\n";
         if (baseline)
-            std::cout << "  beside it, Algorithm 1 of the report: not excluded at most "
-                      << report::at_most_percent(view_.comparison[1].outer_volume.hi) << " after "
-                      << report::duration_text(baseline->seconds) << ", " << baseline->boxes
-                      << " boxes\n";
+            result_stream() << "  beside it, Algorithm 1 of the report: not excluded at most "
+                            << report::at_most_percent(view_.comparison[1].outer_volume.hi)
+                            << " after " << report::duration_text(baseline->seconds) << ", "
+                            << baseline->boxes << " boxes\n";
         if (!told_) return;
-        std::cout << "  what such data tell, " << view_.identifiability_at << ":\n";
-        for (auto const& line : view_.identifiability) std::cout << "    " << line << "\n";
+        result_stream() << "  what such data tell, " << view_.identifiability_at << ":\n";
+        for (auto const& line : view_.identifiability) result_stream() << "    " << line << "\n";
     }
 
     search_task const& task_;

@@ -20,7 +20,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -172,14 +171,14 @@ public:
             app_.parse(argc, argv);
         } catch (CLI::ParseError const& e) {
             if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-                app_.exit(e); // --help
+                app_.exit(e, result_stream(), notice_stream()); // --help
                 return done;
             }
             auto const near = guess(argc, argv);
             if (host_of_command != nullptr)
                 throw bad_request(near.empty() ? e.what() : e.what() + ("; " + near));
-            app_.exit(e);
-            if (!near.empty()) std::cerr << near << "\n";
+            app_.exit(e, result_stream(), notice_stream());
+            if (!near.empty()) notice_stream() << near << "\n";
             return bad_input;
         }
         auto const command = app_.get_subcommands().front()->get_name();
@@ -964,15 +963,17 @@ SIVID_DECL command_answer run_within(host const& h, robot const& r,
     int const argc = static_cast<int>(all.size());
     ranks const one{};
     detail::hosting const hosted(h);
-    detail::kept_stream const out(std::cout), notices(std::cerr);
+    std::ostringstream results, notices;
+    outputs const to{results, notices};
+    detail::speaking const there(to);
     detail::program program(r, detail::line_of(r, argc, argv.data()), one);
     int const code = program(argc, argv.data());
-    return {code, out.text(), notices.text()};
+    return {code, results.str(), notices.str()};
 }
 
-SIVID_DECL int run(robot const& r, int argc, char** argv) {
+SIVID_DECL int run(robot const& r, int argc, char** argv, outputs const& to) {
     auto const line = detail::line_of(r, argc, argv);
-    return guarded_on_ranks(r.name, argc, argv, [&](ranks const& all) {
+    return guarded_on_ranks(r.name, argc, argv, to, [&](ranks const& all) {
         return detail::program(r, line, all)(argc, argv);
     });
 }

@@ -31,7 +31,6 @@
 #include <array>
 #include <filesystem>
 #include <iomanip>
-#include <iostream>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -52,11 +51,11 @@ inline constexpr auto fast_words = exact_words;
 using outcome = check_finding::outcome;
 
 inline void print(check_finding const& f) {
-    std::cout << "  " << std::left << std::setw(17) << f.what << " " << std::setw(14)
-              << to_string(f.found) << " " << f.detail;
+    result_stream() << "  " << std::left << std::setw(17) << f.what << " " << std::setw(14)
+                    << to_string(f.found) << " " << f.detail;
     if (f.seconds > 0.01)
-        std::cout << (f.detail.empty() ? "" : ", ") << report::duration_text(f.seconds);
-    std::cout << std::endl;
+        result_stream() << (f.detail.empty() ? "" : ", ") << report::duration_text(f.seconds);
+    result_stream() << std::endl;
 }
 
 inline int exit_code_of(outcome o) {
@@ -117,8 +116,9 @@ inline void print_unchecked(std::filesystem::path const& folder) {
     auto const more = names.size() > most ? names.size() - most : 0;
     names.resize(names.size() - more);
     if (!names.empty())
-        std::cout << "  not checked: " << joined(names, ", ")
-                  << (more > 0 ? " and " + std::to_string(more) + " more" : std::string{}) << "\n";
+        result_stream() << "  not checked: " << joined(names, ", ")
+                        << (more > 0 ? " and " + std::to_string(more) + " more" : std::string{})
+                        << "\n";
 }
 
 /// The findings in a sentence, and the exit code.
@@ -132,14 +132,14 @@ inline int concluded(std::string const& title, std::vector<check_finding> const&
         if (f.found == outcome::nothing && !f.detail.empty()) left += ", not the " + f.what;
     }
     print_unchecked(folder);
-    std::cout << title << ": "
-              << (verdict == outcome::refuted     ? "REFUTED"
-                  : verdict == outcome::undecided ? "not verified within the budget"
-                  : verdict == outcome::sampled
-                      ? "sampled: nothing refuted, not verified; --all proves every claim"
-                      : "verified, every claim")
-              << (verdict == outcome::verified ? left : "") << " in "
-              << report::duration_text(seconds) << "\n";
+    result_stream() << title << ": "
+                    << (verdict == outcome::refuted     ? "REFUTED"
+                        : verdict == outcome::undecided ? "not verified within the budget"
+                        : verdict == outcome::sampled
+                            ? "sampled: nothing refuted, not verified; --all proves every claim"
+                            : "verified, every claim")
+                    << (verdict == outcome::verified ? left : "") << " in "
+                    << report::duration_text(seconds) << "\n";
     return exit_code_of(verdict);
 }
 
@@ -149,8 +149,8 @@ inline int check_identification(robot const& r, check_command const& c) {
     auto const data = read_data(r, folder);
     auto problem = posed(r, data, stored.effects, stored.disturbances);
     auto const source = source_of(folder, data, stored.dataset, stored.source_digest, "identified");
-    std::cout << "checking " << (c.result / "result.json").string() << " against "
-              << folder.lexically_normal().string() << "\n";
+    result_stream() << "checking " << (c.result / "result.json").string() << " against "
+                    << folder.lexically_normal().string() << "\n";
     print(source);
     if (source.found == outcome::refuted) return refuted;
     require_same_problem(problem, stored, c.result / "result.json");
@@ -160,7 +160,7 @@ inline int check_identification(robot const& r, check_command const& c) {
         e.outliers = stored.budget.at(e.name);
     }
     if (!own_budget)
-        std::cout << "  note: the outlier budget is the result's, not the data set's\n";
+        result_stream() << "  note: the outlier budget is the result's, not the data set's\n";
 
     identification_check_options options;
     options.all = c.all;
@@ -173,12 +173,12 @@ inline int check_identification(robot const& r, check_command const& c) {
     options.certificate.keep_going = wanted;
     auto const findings = work(problem, stored, options, c.multiprecision);
     auto const by = c.how.method == "taylor" ? std::string{} : ", " + c.how.method;
-    std::cout << "  witness in " << exact_words << "; boxes in "
-              << (c.multiprecision ? exact_words : fast_words)
-              << (c.all ? ": the proofs of the result, then first-order sets (Lohner" + by +
-                              "), then the test of the search\n"
-                        : ", by first-order sets (Lohner" + by +
-                              "), what they leave open by the test of the search\n");
+    result_stream() << "  witness in " << exact_words << "; boxes in "
+                    << (c.multiprecision ? exact_words : fast_words)
+                    << (c.all ? ": the proofs of the result, then first-order sets (Lohner" + by +
+                                    "), then the test of the search\n"
+                              : ", by first-order sets (Lohner" + by +
+                                    "), what they leave open by the test of the search\n");
     return concluded(title_of(data, stored.effects, stored.disturbances, problem.model), findings,
                      c.result);
 }
@@ -190,8 +190,8 @@ inline int check_diagnosed(robot const& r, check_command const& c) {
     auto const data = read_data(r, folder);
     auto const base = problem_from_dataset(data, r.model);
     auto const source = source_of(folder, data, stored.dataset, stored.source.digest, "diagnosed");
-    std::cout << "checking " << (c.result / "diagnosis.json").string() << " against "
-              << folder.lexically_normal().string() << "\n";
+    result_stream() << "checking " << (c.result / "diagnosis.json").string() << " against "
+                    << folder.lexically_normal().string() << "\n";
     print(source);
     if (source.found == outcome::refuted) return refuted;
     auto const held_out = holdout_from_dataset(data, r.model.about);
@@ -235,8 +235,8 @@ int check_by_making(robot const& r, check_command const& told, std::string const
     again.dataset = data_of_result(told.result, told.dataset, source.at("folder").any_string());
     again.effects = io_detail::texts(root.at("effects"));
     again.budget = io_detail::nearest_number(root.at("most_seconds"));
-    std::cout << "checking " << (told.result / file).string() << " against "
-              << again.dataset.lexically_normal().string() << "\n";
+    result_stream() << "checking " << (told.result / file).string() << " against "
+                    << again.dataset.lexically_normal().string() << "\n";
     auto const data = read_data(r, again.dataset);
     std::vector all{source_of(again.dataset, data, root.at("dataset").any_string(),
                               source.at("sha256").string(), "used")};
@@ -338,12 +338,14 @@ SIVID_DECL int run(robot const& r, certificate_command const& c) {
     auto const made = make_certificate(problem, data, stored, source, limits);
     auto const file = c.out.empty() ? c.result / "certificate.txt" : c.out;
     write_durably(file, made.text);
-    std::cout << title_of(data, stored.effects, stored.disturbances, problem.model)
-              << ": certificate of " << (made.whole ? "the result\n" : "a part of the result\n");
-    for (auto const& words : made.claimed) std::cout << "  for the checker: " << words << "\n";
-    for (auto const& words : made.unproved) std::cout << "  not certified: " << words << "\n";
-    std::cout << "  " << made.excluded << " excluded boxes; written: " << file.string()
-              << "; check it by check_certificate, which does without sivid\n";
+    result_stream() << title_of(data, stored.effects, stored.disturbances, problem.model)
+                    << ": certificate of "
+                    << (made.whole ? "the result\n" : "a part of the result\n");
+    for (auto const& words : made.claimed)
+        result_stream() << "  for the checker: " << words << "\n";
+    for (auto const& words : made.unproved) result_stream() << "  not certified: " << words << "\n";
+    result_stream() << "  " << made.excluded << " excluded boxes; written: " << file.string()
+                    << "; check it by check_certificate, which does without sivid\n";
     return made.whole ? done : undecided;
 }
 

@@ -14,7 +14,6 @@
 #include <sivid/paving/confidence_region.hpp>
 #include <sivid/report/stored_page.hpp>
 
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -101,20 +100,22 @@ SIVID_DECL int run(robot const& r, confidence_command const& c) {
     files.add("confidence.csv", io_detail::paving_csv(region.names, paving));
     files.add("confidence.json", detail::confidence_json(c, problem, data.id, region));
     files.commit();
-    std::cout << title << ": the truth is in the region with a probability of "
-              << detail::probability_words(region) << ", if errors are independent and symmetric\n";
+    result_stream() << title << ": the truth is in the region with a probability of "
+                    << detail::probability_words(region)
+                    << ", if errors are independent and symmetric\n";
     for (std::size_t s = 0; s < region.names.size() && paving.has_outer(); ++s)
-        std::cout << "  " << region.names[s] << " in "
-                  << report::outward_text(paving.outer_hull()[s]) << " " << region.units[s] << "\n";
-    std::cout << "  of the prior's volume: inside at least "
-              << report::at_least_percent(paving.inner_volume().lower())
-              << ", not excluded at most " << report::at_most_percent(paving.outer_volume().upper())
-              << "\n";
-    for (auto const& words : region.remarks) std::cout << "  " << words << "\n";
-    std::cout << "  " << reason << ", seed " << region.seed << ", "
-              << report::duration_text(region.found.seconds)
-              << "\n  written: " << (c.out / "confidence.html").string()
-              << " and confidence.json, confidence.csv\n";
+        result_stream() << "  " << region.names[s] << " in "
+                        << report::outward_text(paving.outer_hull()[s]) << " " << region.units[s]
+                        << "\n";
+    result_stream() << "  of the prior's volume: inside at least "
+                    << report::at_least_percent(paving.inner_volume().lower())
+                    << ", not excluded at most "
+                    << report::at_most_percent(paving.outer_volume().upper()) << "\n";
+    for (auto const& words : region.remarks) result_stream() << "  " << words << "\n";
+    result_stream() << "  " << reason << ", seed " << region.seed << ", "
+                    << report::duration_text(region.found.seconds)
+                    << "\n  written: " << (c.out / "confidence.html").string()
+                    << " and confidence.json, confidence.csv\n";
     return complete ? done : undecided;
 }
 

@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,28 +43,28 @@ inline int run_predict(robot const& r, decision_command const& c) {
     report::prediction_page(*about, found, options).add_to(files);
     files.add("prediction.json", prediction_json(*about, found, task.json_options()));
     files.commit();
-    std::cout << task.scenario() << " for all parameters that " << task.dataset() << " leaves: "
-              << (found.complete ? "proved"
-                                 : "proved up to t = " + report::exact_text(found.reached) + " " +
-                                       about->problem.model.about.time_unit + " only")
-              << "\n";
+    result_stream() << task.scenario() << " for all parameters that " << task.dataset()
+                    << " leaves: "
+                    << (found.complete ? "proved"
+                                       : "proved up to t = " + report::exact_text(found.reached) +
+                                             " " + about->problem.model.about.time_unit + " only")
+                    << "\n";
     for (auto const& channel : found.channels) {
         report::range const last{channel.low.back(), channel.high.back()};
-        std::cout << "  " << channel.name << " at the end in "
-                  << (is_finite(last) ? report::outward_text(last) : "no known bounds")
-                  << (channel.unit == "1" ? "" : " " + channel.unit) << "\n";
+        result_stream() << "  " << channel.name << " at the end in "
+                        << (is_finite(last) ? report::outward_text(last) : "no known bounds")
+                        << (channel.unit == "1" ? "" : " " + channel.unit) << "\n";
     }
     if (!found.complete)
-        std::cout
+        result_stream()
             << "  fewer parameters (an identification that excludes more), a narrower start or "
                "a shorter scenario reach farther; --budget only if it was spent\n";
     if (std::isfinite(found.excess))
-        std::cout << "  tubes at most " << report::wider_text(found.excess)
-                  << (found.excess < 1 ? " than" : " as") << " what these parameters reach\n";
-    std::cout << "  " << report::duration_text(found.seconds) << ", " << found.parts << " parts, "
-              << found.integrations
-              << " validated integrations\n  written: " << (c.out / "prediction.html").string()
-              << " and prediction.json, tubes.csv\n";
+        result_stream() << "  tubes at most " << report::wider_text(found.excess)
+                        << (found.excess < 1 ? " than" : " as") << " what these parameters reach\n";
+    result_stream() << "  " << report::duration_text(found.seconds) << ", " << found.parts
+                    << " parts, " << found.integrations << " validated integrations\n  written: "
+                    << (c.out / "prediction.html").string() << " and prediction.json, tubes.csv\n";
     return found.complete ? done : undecided;
 }
 
@@ -73,9 +72,9 @@ inline int run_predict(robot const& r, decision_command const& c) {
 inline void print_end(stored_prediction const& about, std::string const& effort,
                       decision_command const& c, std::string const& files) {
     for (auto const& line : report::decision_assumptions(about))
-        std::cout << "  - " << line << "\n";
-    std::cout << "  " << effort << " validated integrations\n";
-    if (!c.out.empty()) std::cout << "  written: " << files << "\n";
+        result_stream() << "  - " << line << "\n";
+    result_stream() << "  " << effort << " validated integrations\n";
+    if (!c.out.empty()) result_stream() << "  written: " << files << "\n";
 }
 
 /// `verify`: prints the answer; with `out`, writes verification.html and verification.json.
@@ -105,8 +104,9 @@ inline int run_verify(robot const& r, decision_command const& c) {
                   verification_json(*about, asked, found, task.json_options()));
         files.commit();
     }
-    std::cout << task.scenario() << ", " << task.dataset() << ": " << to_string(found.answer)
-              << "\n  " << asked.text << "\n  " << report::answer_sentence(*about, found) << "\n";
+    result_stream() << task.scenario() << ", " << task.dataset() << ": " << to_string(found.answer)
+                    << "\n  " << asked.text << "\n  " << report::answer_sentence(*about, found)
+                    << "\n";
     print_end(*about,
               report::duration_text(found.seconds) + ", " + std::to_string(found.parts) +
                   " parts, " + std::to_string(found.integrations),
@@ -142,13 +142,14 @@ inline proved_gains prove_gains(question& q, std::vector<std::string> const& gai
 inline void print_gains(question const& q, gain_set const& found,
                         std::optional<verification> const& proof, decision_command const& c) {
     auto const& [task, with_margins, asked, about] = q;
-    std::cout << task.scenario() << ", " << task.dataset() << ": "
-              << (found.some_proved()   ? "gains are proved"
-                  : found.none_exists() ? "no gain will do"
-                                        : "no gain is proved")
-              << "\n  " << c.law << "\n  " << asked.text << "\n  " << report::gain_sentence(found)
-              << "\n";
-    if (proof) std::cout << "  with these: " << report::answer_sentence(*about, *proof) << "\n";
+    result_stream() << task.scenario() << ", " << task.dataset() << ": "
+                    << (found.some_proved()   ? "gains are proved"
+                        : found.none_exists() ? "no gain will do"
+                                              : "no gain is proved")
+                    << "\n  " << c.law << "\n  " << asked.text << "\n  "
+                    << report::gain_sentence(found) << "\n";
+    if (proof)
+        result_stream() << "  with these: " << report::answer_sentence(*about, *proof) << "\n";
     print_end(*about,
               report::duration_text(found.seconds) + ", " +
                   std::to_string(found.paving.paving.boxes().size()) + " boxes, " +

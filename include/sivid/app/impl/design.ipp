@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -192,17 +191,17 @@ private:
     }
 
     void print() const {
-        std::cout << one_.task.scenario() << ", " << one_.task.dataset() << ": "
-                  << report::design_headline(answer_) << "\n";
+        result_stream() << one_.task.scenario() << ", " << one_.task.dataset() << ": "
+                        << report::design_headline(answer_) << "\n";
         if (found()) {
             auto const* const best = answer_.found.best();
-            std::cout << "  " << best->name;
+            result_stream() << "  " << best->name;
             for (std::size_t k = 0; k < best->settings.size(); ++k)
-                std::cout << (k == 0 ? ": " : ", ") << best->about[k].name << " "
-                          << report::given_text(best->settings[k]);
-            std::cout << "\n";
+                result_stream() << (k == 0 ? ": " : ", ") << best->about[k].name << " "
+                                << report::given_text(best->settings[k]);
+            result_stream() << "\n";
         }
-        std::cout << "  " << report::design_sentence(answer_) << "\n";
+        result_stream() << "  " << report::design_sentence(answer_) << "\n";
         print_end(*one_.about,
                   report::duration_text(answer_.found.seconds) + ", " +
                       std::to_string(answer_.found.simulated) + " settings, " +

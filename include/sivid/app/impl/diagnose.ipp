@@ -32,7 +32,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,19 +90,19 @@ inline std::vector<named_estimate> stated_parameters(cause const& c) {
 inline void print_constants(diagnosis const& d) {
     if (d.constants.empty()) return;
     bool const answered = d.answer == answer_kind::effects || d.answer == answer_kind::none;
-    std::cout << (d.constants_verified ? "  verified to explain the data:"
-                  : answered           ? "  best fit (not proved):"
-                                       : "  closest so far (not proved):");
-    for (auto const& c : d.constants) std::cout << " " << value_words(c);
-    std::cout << "\n";
+    result_stream() << (d.constants_verified ? "  verified to explain the data:"
+                        : answered           ? "  best fit (not proved):"
+                                             : "  closest so far (not proved):");
+    for (auto const& c : d.constants) result_stream() << " " << value_words(c);
+    result_stream() << "\n";
 }
 
 /// Products that the data tell better than their factors.
 inline void print_combinations(diagnosis const& d) {
     for (auto const& c : d.combinations) {
         auto const& p = c.about;
-        std::cout << "  told together: " << value_words(p) << ", within "
-                  << report::outward_text(*p.hull) << " (proved)\n";
+        result_stream() << "  told together: " << value_words(p) << ", within "
+                        << report::outward_text(*p.hull) << " (proved)\n";
     }
 }
 
@@ -113,11 +112,11 @@ inline void print_times(diagnosis const& d) {
     auto const print = [](char const* what, std::vector<named_estimate> const& times) {
         for (auto const& o : times) {
             bool const known = o.hull && o.prior && width(*o.hull) < width(*o.prior);
-            std::cout << what << value_words(o)
-                      << (known ? ", within " + report::outward_text(*o.hull) + " " + o.unit +
-                                      " (proved)"
-                                : std::string{"; no bound of it is proved"})
-                      << "\n";
+            result_stream() << what << value_words(o)
+                            << (known ? ", within " + report::outward_text(*o.hull) + " " + o.unit +
+                                            " (proved)"
+                                      : std::string{"; no bound of it is proved"})
+                            << "\n";
         }
     };
     print("  it begins in ", d.causes.front().onsets);
@@ -127,33 +126,35 @@ inline void print_times(diagnosis const& d) {
 /// Causes that say as much as the answer with less, which it does not name itself.
 inline void print_other_answers(diagnosis const& d) {
     for (auto const* part : parts_that_explain(d))
-        std::cout << "  explains with fewer effects, proved later: " << joined(part->effects, " + ")
-                  << "; see identify --with " << joined(part->effects, ",") << "\n";
+        result_stream() << "  explains with fewer effects, proved later: "
+                        << joined(part->effects, " + ") << "; see identify --with "
+                        << joined(part->effects, ",") << "\n";
     if (auto const* closest = closest_without_switches(d))
-        std::cout << "  closest without times and places of its own: "
-                  << joined(closest->effects, " + ") << ", with all bounds times "
-                  << report::estimate_text(closest->fitted_inflation) << " (estimate)\n";
+        result_stream() << "  closest without times and places of its own: "
+                        << joined(closest->effects, " + ") << ", with all bounds times "
+                        << report::estimate_text(closest->fitted_inflation) << " (estimate)\n";
 }
 
 inline void print_holdout(diagnosis const& d, bool kept) {
     if (d.answer != answer_kind::effects || d.causes.empty()) return;
     if (!d.causes.front().holdout) {
         if (kept)
-            std::cout << "  held-out data: not judged, "
-                      << (switches(d.effects)
-                              ? "nothing says when the effect acts there\n"
-                              : "no time was left for that or no run went through them\n");
+            result_stream() << "  held-out data: not judged, "
+                            << (switches(d.effects)
+                                    ? "nothing says when the effect acts there\n"
+                                    : "no time was left for that or no run went through them\n");
         return;
     }
     auto const& h = *d.causes.front().holdout;
-    std::cout << "  inflation on the held-out data: " << report::inflation_text(h.inflation_before)
-              << " without it, " << report::inflation_text(h.inflation_after) << " with it";
+    result_stream() << "  inflation on the held-out data: "
+                    << report::inflation_text(h.inflation_before) << " without it, "
+                    << report::inflation_text(h.inflation_after) << " with it";
     if (d.shrink_holdout && std::isfinite(d.shrink_holdout->lower()))
-        std::cout << ": the gap shrinks by " << report::shrink_text(*d.shrink_holdout);
+        result_stream() << ": the gap shrinks by " << report::shrink_text(*d.shrink_holdout);
     if (d.shrink_over_fits && d.shrink_over_fits->lower() > 0)
-        std::cout << "; for every parameter that explains the other data, by "
-                  << report::shrink_text(*d.shrink_over_fits);
-    std::cout << "\n";
+        result_stream() << "; for every parameter that explains the other data, by "
+                        << report::shrink_text(*d.shrink_over_fits);
+    result_stream() << "\n";
 }
 
 /// "open: 8 of 36 candidates tried, no pair"
@@ -193,50 +194,51 @@ inline exit_code exit_code_of(diagnosis const& d) {
 /// @param kept  whether data are held out
 inline void print_summary(diagnosis const& d, std::string const& id,
                           std::filesystem::path const& out, bool kept) {
-    std::cout << id << ": gap " << to_string(d.gap) << ", inflation "
-              << (report::says_something(d.inflation) ? report::inflation_text(d.inflation)
-                                                      : std::string{"not bounded"})
-              << "\n";
-    for (auto const& words : report::view_of(d).why) std::cout << "  " << words << "\n";
-    for (auto const& c : d.confined) std::cout << "  " << report::confined_clause(c) << "\n";
+    result_stream() << id << ": gap " << to_string(d.gap) << ", inflation "
+                    << (report::says_something(d.inflation) ? report::inflation_text(d.inflation)
+                                                            : std::string{"not bounded"})
+                    << "\n";
+    for (auto const& words : report::view_of(d).why) result_stream() << "  " << words << "\n";
+    for (auto const& c : d.confined) result_stream() << "  " << report::confined_clause(c) << "\n";
     for (auto const& p : d.where) {
-        std::cout << "  where: " << p.kind << " " << p.name << (p.proved ? " (proved)" : "")
-                  << (p.law.empty() ? "" : ", like ") << p.law << "\n";
+        result_stream() << "  where: " << p.kind << " " << p.name << (p.proved ? " (proved)" : "")
+                        << (p.law.empty() ? "" : ", like ") << p.law << "\n";
     }
-    std::cout << "  answer: " << answer_words(d);
+    result_stream() << "  answer: " << answer_words(d);
     if (!d.causes.empty() && d.answer == answer_kind::effects) {
-        std::cout << " (" << to_string(d.causes.front().verdict) << ")";
+        result_stream() << " (" << to_string(d.causes.front().verdict) << ")";
         for (auto const& p : stated_parameters(d.causes.front())) {
-            std::cout << " " << value_words(p);
+            result_stream() << " " << value_words(p);
         }
     }
-    std::cout << "\n";
+    result_stream() << "\n";
     print_other_answers(d);
     print_times(d);
     print_constants(d);
     print_combinations(d);
     for (auto const& e : d.at_ends) {
-        std::cout << "  " << report::end_words(e) << "\n";
+        result_stream() << "  " << report::end_words(e) << "\n";
     }
     if (d.remainder) {
-        std::cout << "  unexplained remainder: "
-                  << (d.remainder->effects.empty() ? std::string{"the model as it is"}
-                                                   : "with " + joined(d.remainder->effects, " + "))
-                  << ", inflation " << report::inflation_text(d.remainder->inflation) << "\n";
+        result_stream() << "  unexplained remainder: "
+                        << (d.remainder->effects.empty()
+                                ? std::string{"the model as it is"}
+                                : "with " + joined(d.remainder->effects, " + "))
+                        << ", inflation " << report::inflation_text(d.remainder->inflation) << "\n";
     }
     for (auto* const clauses : {&report::ladder_clauses, &report::disturbance_clauses})
-        for (auto const& words : clauses(d)) std::cout << "  " << words << "\n";
+        for (auto const& words : clauses(d)) result_stream() << "  " << words << "\n";
     for (auto const& other : d.indistinguishable) {
-        std::cout << "  not told apart from it: " << joined(other, " + ") << "\n";
+        result_stream() << "  not told apart from it: " << joined(other, " + ") << "\n";
     }
     print_holdout(d, kept);
-    for (auto const& line : d.change.lines) std::cout << "  in a simulator: " << line << "\n";
+    for (auto const& line : d.change.lines) result_stream() << "  in a simulator: " << line << "\n";
     if (exit_code_of(d) == undecided)
-        std::cout << "  ended early: what is open may be known with more time (--budget)\n";
-    std::cout << "  " << report::duration_text(d.seconds)
-              << (d.by_clock ? ", ended by the clock: a faster machine may say more" : "")
-              << "; written: " << (out / "report.html").string()
-              << " and diagnosis.json beside it\n";
+        result_stream() << "  ended early: what is open may be known with more time (--budget)\n";
+    result_stream() << "  " << report::duration_text(d.seconds)
+                    << (d.by_clock ? ", ended by the clock: a faster machine may say more" : "")
+                    << "; written: " << (out / "report.html").string()
+                    << " and diagnosis.json beside it\n";
 }
 
 /// Progress and Ctrl-C for a diagnosis. The line outlives it.
@@ -397,10 +399,10 @@ private:
         auto const& answer = run.candidates[run.answer];
         auto const& problem = answer.problem;
         if (problem.model.has_memory() || starts_follow_parameters(problem)) {
-            std::cout << "  ranges of its parameters: not proved, "
-                      << (problem.model.has_memory()
-                              ? "the model has a delay, a play or a rate limit\n"
-                              : "the effects begin where their parameters say\n");
+            result_stream() << "  ranges of its parameters: not proved, "
+                            << (problem.model.has_memory()
+                                    ? "the model has a delay, a play or a rate limit\n"
+                                    : "the effects begin where their parameters say\n");
             return;
         }
         search_command told;
@@ -426,18 +428,18 @@ private:
         identification_output output(task, found, limit);
         prepare_folder(told.out);
         static_cast<void>(output.write());
-        std::cout << "  ranges of all parameters (proved: none outside explains the data):\n";
+        result_stream() << "  ranges of all parameters (proved: none outside explains the data):\n";
         print_ranges(output.view(), "    ");
         auto const wide = [](auto const& p) {
             return p.hull.lo <= p.prior.lo && p.prior.hi <= p.hull.hi;
         };
         if (found.reason == stop_reason::time_budget &&
             std::any_of(output.view().parameters.begin(), output.view().parameters.end(), wide))
-            std::cout << "    " << to_string(found.reason)
-                      << ": a larger --budget, or identify --with these effects, may narrow "
-                         "them\n";
+            result_stream() << "    " << to_string(found.reason)
+                            << ": a larger --budget, or identify --with these effects, may narrow "
+                               "them\n";
         if (command_.verbose) print_tried(output.view().tried);
-        std::cout
+        result_stream()
             << "  written: " << told.out.string()
             << ": its report.html, and what check, predict, verify, control and design take\n";
     }

@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -266,10 +265,11 @@ SIVID_DECL int run(robot const& r, disturbance_command const& c) {
         files.drop("curve.csv"); // of an earlier result
     files.commit();
     auto indent = "";
-    for (auto const& line : words) std::cout << std::exchange(indent, "  ") << line << "\n";
-    std::cout << "  " << report::duration_text(found.seconds) << ", " << found.boxes
-              << " boxes; written: " << (c.out / "disturbance.html").string()
-              << " and disturbance.json, disturbance.csv" << (c.curve > 0 ? ", curve.csv\n" : "\n");
+    for (auto const& line : words) result_stream() << std::exchange(indent, "  ") << line << "\n";
+    result_stream() << "  " << report::duration_text(found.seconds) << ", " << found.boxes
+                    << " boxes; written: " << (c.out / "disturbance.html").string()
+                    << " and disturbance.json, disturbance.csv"
+                    << (c.curve > 0 ? ", curve.csv\n" : "\n");
     return found.witness && found.size.lower() >= 0.5 * found.size.upper() ? done : undecided;
 }
 

@@ -25,7 +25,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <iostream>
 #include <map>
 #include <optional>
 #include <set>
@@ -233,7 +232,7 @@ public:
         if (is_robot_) files.add(name + ".ranges.json", table(values));
         files.add(name, is_robot_ ? robot.text : table(values));
         files.commit();
-        std::cout << note << "written: " << command_.out.string() << "\n";
+        result_stream() << note << "written: " << command_.out.string() << "\n";
         return done;
     }
 
@@ -355,7 +354,7 @@ SIVID_DECL int run(robot const& r, export_command const& c) {
     try {
         return detail::exporting(r, c)();
     } catch (detail::no_member const& none) {
-        std::cerr << "nothing is written: " << none.what() << "\n";
+        notice_stream() << "nothing is written: " << none.what() << "\n";
         return none.code;
     }
 }

@@ -29,7 +29,6 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <optional>
 #include <set>
@@ -343,17 +342,18 @@ inline int write_fleet_summary(std::vector<fleet_task> const& list,
     for (auto const& r : rows) {
         auto name = printable_text(r.name, 200);
         name.resize(std::max(name.size(), widest), ' ');
-        std::cout << name << "  " << printable_text(r.found, 400);
-        if (!r.high.empty()) std::cout << "; " << r.about << " [" << r.low << ", " << r.high << "]";
-        std::cout << "\n";
+        result_stream() << name << "  " << printable_text(r.found, 400);
+        if (!r.high.empty())
+            result_stream() << "; " << r.about << " [" << r.low << ", " << r.high << "]";
+        result_stream() << "\n";
     }
-    std::cout << rows.size() << (rows.size() == 1 ? " data set" : " data sets");
+    result_stream() << rows.size() << (rows.size() == 1 ? " data set" : " data sets");
     for (auto const& [what, count] : counts)
-        std::cout << "; " << count << " " << printable_text(what, 200);
-    std::cout << "\n"
-              << text_of("%.3g", seconds)
-              << " s of the programs; written: " << (out / "fleet.csv").string()
-              << " and fleet.json\n";
+        result_stream() << "; " << count << " " << printable_text(what, 200);
+    result_stream() << "\n"
+                    << text_of("%.3g", seconds)
+                    << " s of the programs; written: " << (out / "fleet.csv").string()
+                    << " and fleet.json\n";
     return code;
 }
 

@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,7 +74,7 @@ public:
         try {
             write_checkpoint(file_, now, problem_);
         } catch (output_error const& e) {
-            if (!warned_) std::cerr << "warning: no checkpoint: " << e.what() << "\n";
+            if (!warned_) notice_stream() << "warning: no checkpoint: " << e.what() << "\n";
             warned_ = true;
         }
     }
@@ -86,7 +85,7 @@ public:
             std::error_code ignored;
             std::filesystem::remove(file_, ignored);
         } else if (std::filesystem::exists(file_)) {
-            std::cout << "  to go on from here: --resume and a larger budget\n";
+            result_stream() << "  to go on from here: --resume and a larger budget\n";
         }
     }
 
@@ -209,7 +208,7 @@ public:
         bool const whole = output.write();
         output.print();
         weigh_bounds();
-        std::cout << shared;
+        result_stream() << shared;
         checkpoint.finish(found.reason);
         return whole ? exit_code_of(found.verdict) : static_cast<int>(bad_input);
     }
@@ -260,8 +259,8 @@ private:
             progress_.note("resuming after " + std::to_string(s->search.tested) + " boxes and " +
                            report::duration_text(s->seconds + s->search.seconds));
         } else if (command_.resume) {
-            std::cerr << "warning: no checkpoint in " << command_.out.string()
-                      << ": beginning anew\n";
+            notice_stream() << "warning: no checkpoint in " << command_.out.string()
+                            << ": beginning anew\n";
         }
     }
 
@@ -318,7 +317,7 @@ private:
         auto const lines = influence_of_bounds(task_.problem, {0.5, 2}, how);
         progress_.finish();
         write_durably(command_.out / "bounds.csv", bounds_csv(task_.problem, lines));
-        std::cout << bounds_text(task_.problem, lines);
+        result_stream() << bounds_text(task_.problem, lines);
     }
 
     identify_command const& command_;
@@ -334,15 +333,17 @@ private:
 
 inline void print_update(double time, online_update const& now,
                          identification_problem const& problem) {
-    std::cout << "  t = " << report::given_text(time) << " " << problem.model.about.time_unit
-              << ", " << now.samples << " samples, " << report::duration_text(now.seconds) << ": "
-              << to_string(now.verdict);
+    result_stream() << "  t = " << report::given_text(time) << " " << problem.model.about.time_unit
+                    << ", " << now.samples << " samples, " << report::duration_text(now.seconds)
+                    << ": " << to_string(now.verdict);
     for (std::size_t j = 0; j < now.hull.size() && now.live > 0; ++j)
-        std::cout << ", " << problem.choice.unknown[j] << " " << report::outward_text(now.hull[j]);
+        result_stream() << ", " << problem.choice.unknown[j] << " "
+                        << report::outward_text(now.hull[j]);
     for (auto const& c : now.combinations)
-        std::cout << ", " << c.what.formula << " " << report::outward_text(c.hull);
-    if (now.integrations > 0) std::cout << " (" << now.integrations << " runs from the begin)";
-    std::cout << std::endl; // as it happens
+        result_stream() << ", " << c.what.formula << " " << report::outward_text(c.hull);
+    if (now.integrations > 0)
+        result_stream() << " (" << now.integrations << " runs from the begin)";
+    result_stream() << std::endl; // as it happens
 }
 
 /// Feeds the measurements of a problem in the order of their times, those of one time together, and
@@ -368,8 +369,8 @@ inline void print_update(double time, online_update const& now,
         if (!limit()) {
             // What is said at the end is of all measurements: the others come together.
             cut = interrupted() ? stop_reason::cancelled : stop_reason::time_budget;
-            std::cout << "  " << to_string(*cut) << ": the other " << samples.end() - from
-                      << " measurements at once" << std::endl;
+            result_stream() << "  " << to_string(*cut) << ": the other " << samples.end() - from
+                            << " measurements at once" << std::endl;
             limit.allow(0.4);
             time = samples.back().what.time;
         }
@@ -382,8 +383,9 @@ inline void print_update(double time, online_update const& now,
         ++updates;
         from = until;
     }
-    std::cout << "  " << updates << " updates, the longest took " << report::duration_text(longest)
-              << ", all together " << report::duration_text(total) << std::endl;
+    result_stream() << "  " << updates << " updates, the longest took "
+                    << report::duration_text(longest) << ", all together "
+                    << report::duration_text(total) << std::endl;
     auto found = online.result();
     if (cut && found.verdict != verdict::inconsistent) found.reason = *cut;
     return found;

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,34 +72,34 @@ inline identification_problem measured(robot const& r, rank_command const& c) {
 }
 
 inline void print_channels(identification_problem const& problem, ranking const& found) {
-    std::cout << "effects in error bounds, over the whole prior, strongest first: "
-              << (found.complete ? "proved" : "proved, some bounds still apart") << "\n";
+    result_stream() << "effects in error bounds, over the whole prior, strongest first: "
+                    << (found.complete ? "proved" : "proved, some bounds still apart") << "\n";
     for (auto const& channel : found.channels) {
-        std::cout << "  " << problem.experiments[channel.experiment].name << " "
-                  << problem.model.about.channels[channel.channel].name << ":";
+        result_stream() << "  " << problem.experiments[channel.experiment].name << " "
+                        << problem.model.about.channels[channel.channel].name << ":";
         for (auto const j : channel.order()) {
             auto const& e = channel.effects[j];
             if (e.high == 0) continue;
-            std::cout << " " << problem.choice.unknown[j] << " " << report::effect_text(e);
+            result_stream() << " " << problem.choice.unknown[j] << " " << report::effect_text(e);
         }
-        std::cout << "\n";
+        result_stream() << "\n";
     }
     for (auto const& line : report::ranking_sentences(problem, found))
-        std::cout << "  " << line << "\n";
-    std::cout << "  " << report::duration_text(found.seconds) << ", " << found.parts << " parts, "
-              << found.integrations << " validated integrations\n";
+        result_stream() << "  " << line << "\n";
+    result_stream() << "  " << report::duration_text(found.seconds) << ", " << found.parts
+                    << " parts, " << found.integrations << " validated integrations\n";
 }
 
 inline void print_worth(identification_problem const& problem, measurement_ranking const& worth) {
-    std::cout << "what explains the data grows without some of them: "
-              << (worth.complete ? "proved" : "proved, some bounds still apart") << "\n";
+    result_stream() << "what explains the data grows without some of them: "
+                    << (worth.complete ? "proved" : "proved, some bounds still apart") << "\n";
     for (auto const& g : worth.groups)
-        std::cout << "  without " << report::group_text(problem, g.what) << " (" << g.measurements
-                  << "): " << report::growth_text(g.growth) << "\n";
+        result_stream() << "  without " << report::group_text(problem, g.what) << " ("
+                        << g.measurements << "): " << report::growth_text(g.growth) << "\n";
     if (worth.explained == verdict::inconsistent)
-        std::cout << "  no parameter explains all of the data: nothing can grow\n";
-    std::cout << "  " << report::duration_text(worth.seconds) << ", " << worth.integrations
-              << " validated integrations\n";
+        result_stream() << "  no parameter explains all of the data: nothing can grow\n";
+    result_stream() << "  " << report::duration_text(worth.seconds) << ", " << worth.integrations
+                    << " validated integrations\n";
 }
 
 } // namespace detail
@@ -156,8 +155,8 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     detail::print_channels(problem, found);
     if (worth != nullptr) detail::print_worth(problem, *worth);
     for (auto const& words : assumptions_of(disturbances, problem.model))
-        std::cout << "  - " << words << "\n";
-    std::cout << "  written: " << (c.out / "ranking.html").string() << " and ranking.json\n";
+        result_stream() << "  - " << words << "\n";
+    result_stream() << "  written: " << (c.out / "ranking.html").string() << " and ranking.json\n";
     return found.complete && (worth == nullptr || worth->complete) ? done : undecided;
 }
 

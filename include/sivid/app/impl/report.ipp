@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <system_error>
 #include <vector>
 
@@ -34,8 +33,9 @@ SIVID_DECL int run(robot const&, report_command const& c) {
     file_set files(out);
     for (auto const& page : pages) files.add(page.name, page.html);
     files.commit();
-    for (auto const& page : pages) std::cout << "written: " << (out / page.name).string() << "\n";
-    std::cout << "as the result states it: `check` proves it anew\n";
+    for (auto const& page : pages)
+        result_stream() << "written: " << (out / page.name).string() << "\n";
+    result_stream() << "as the result states it: `check` proves it anew\n";
     return done;
 }
 

@@ -28,7 +28,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -39,13 +38,14 @@ namespace sivid::app {
 
 SIVID_DECL int run(robot const& r, describe_command const& c) {
     if (c.unknown.empty()) {
-        std::cout << (c.dot ? to_dot(r.model) : describe(r.model));
+        result_stream() << (c.dot ? to_dot(r.model) : describe(r.model));
         for (std::size_t k = 0; !c.dot && k < r.effects.size(); ++k) {
             auto const& e = r.effects[k];
-            std::cout << "effect " << e.name << (e.about.empty() ? "" : ": ") << e.about << "\n";
+            result_stream() << "effect " << e.name << (e.about.empty() ? "" : ": ") << e.about
+                            << "\n";
         }
         if (!c.dot && !r.disturbances.empty())
-            std::cout << "allowed for: " << in_words(r.disturbances, r.model) << "\n";
+            result_stream() << "allowed for: " << in_words(r.disturbances, r.model) << "\n";
         return done;
     }
     for (auto const& name : c.unknown)
@@ -54,7 +54,7 @@ SIVID_DECL int run(robot const& r, describe_command const& c) {
     sampled_signal const samples({0, 1}, {0, 0}, interpolation::linear);
     auto const bound =
         bind(r.model, {c.unknown, {}}, std::vector<signal>(r.model.about.inputs.size(), samples));
-    std::cout << (c.dot ? to_dot(bound) : describe(bound));
+    result_stream() << (c.dot ? to_dot(bound) : describe(bound));
     return done;
 }
 
@@ -354,7 +354,7 @@ SIVID_DECL int run(robot const& r, simulate_command const& asked) {
     for (auto const& [name, value] : c.set) set.fixed[name] = value;
     auto const derived = derivation_words(model, set);
     if (!derived.empty()) page.bullets(derived);
-    for (auto const& words : derived) std::cout << words << "\n";
+    for (auto const& words : derived) result_stream() << words << "\n";
     std::vector<std::string> warnings;
     for (auto const& s : all)
         if (!s->complete()) warnings.push_back(s->failure());
@@ -365,13 +365,13 @@ SIVID_DECL int run(robot const& r, simulate_command const& asked) {
         files.add(name + ".trajectory.csv", all[k]->trajectory_csv());
         if (all[k]->validated()) files.add(name + ".tube.csv", all[k]->tube_csv());
         all[k]->add_to(page);
-        std::cout << all[k]->summary() << "\n";
-        if (!all[k]->complete()) std::cout << "  " << all[k]->failure() << "\n";
+        result_stream() << all[k]->summary() << "\n";
+        if (!all[k]->complete()) result_stream() << "  " << all[k]->failure() << "\n";
     }
     page.footer(page_footer(c.command_line));
     files.add("simulation.html", page.str());
     files.commit();
-    std::cout << "written: " << (c.out / "simulation.html").string() << "\n";
+    result_stream() << "written: " << (c.out / "simulation.html").string() << "\n";
     return done;
 }
 
@@ -384,17 +384,18 @@ SIVID_DECL int run(robot const& r, generate_command const& c) {
     add_dataset(files, made.data, names);
     files.commit();
     for (auto const& s : made.data.scenarios)
-        std::cout << s.name << ": " << s.measurements.size() << " measurements over " << s.duration
-                  << " " << r.model.about.time_unit << "\n";
+        result_stream() << s.name << ": " << s.measurements.size() << " measurements over "
+                        << s.duration << " " << r.model.about.time_unit << "\n";
     if (made.left_out > 0)
-        std::cout << made.left_out
-                  << " samples near zero were left out: a relative bound says nothing there; use "
-                     "--absolute or --combined\n";
+        result_stream()
+            << made.left_out
+            << " samples near zero were left out: a relative bound says nothing there; use "
+               "--absolute or --combined\n";
     if (!made.outliers.empty())
-        std::cout << made.outliers.size() << " outliers planted, fraction allowed "
-                  << made.data.max_outlier_fraction.text() << "\n";
-    std::cout << "written: " << (c.out / "dataset.json").string()
-              << " (the planted truth is in truth.json)\n";
+        result_stream() << made.outliers.size() << " outliers planted, fraction allowed "
+                        << made.data.max_outlier_fraction.text() << "\n";
+    result_stream() << "written: " << (c.out / "dataset.json").string()
+                    << " (the planted truth is in truth.json)\n";
     return done;
 }
 
