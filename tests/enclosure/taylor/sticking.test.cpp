@@ -181,6 +181,6 @@ TEST_CASE("signs that multiply each other, or push away from 0, have no flow at 
               return std::vector{-p[0] * s + 0.5 * s * r, x[0] - p[0] * r};
           }) == 0);
     CHECK(states([](auto const&, auto const& x, auto const&, auto const&) {
-              return std::vector{sign(x[0]) + 0 * x[1], sign(x[1]) - sign(x[0])};
+              return std::vector{sign(x[0]) + 0 * x[1], -sign(x[1]) - sign(x[0])};
           }) == 1);
 }
