@@ -184,3 +184,72 @@ TEST_CASE("signs that multiply each other, or push away from 0, have no flow at 
               return std::vector{sign(x[0]) + 0 * x[1], -sign(x[1]) - sign(x[0])};
           }) == 1);
 }
+
+TEST_CASE("two states that stick at once may leave 0 in a spiral through both signs") {
+    auto const f = support::flow_of(
+        support::model_of({2, 1}, [](auto const&, auto const& x, auto const& p, auto const&) {
+            auto const s = sign(x[0]), r = sign(x[1]);
+            return std::vector{-p[0] * s - 2 * p[0] * r, 2 * p[0] * s + 1.5 * p[0] * r};
+        }));
+    parametric_flow<> run(*f, for_span(enclosure_options{.order = 6, .maximum_steps = 50}, 1), 0,
+                          0);
+    run.begin(0, box{interval(0.0), interval(0.0)}, box{interval(1.0)});
+    while (run.time() < 1 && run.step(1)) {
+        // From (a, 0) to (-7a/3, 0) it takes 8a/3: such a motion has left 0 a time 2a before.
+        auto const hull = run.set().hull();
+        CHECK(holds(hull[0], run.time() / 2));
+        CHECK(holds(hull[0], -run.time() / 2));
+        CHECK(holds(hull[1], 0));
+    }
+    CHECK(run.steps() > 0);
+}
+
+TEST_CASE("a pushed block on a block on the ground: what is enclosed holds every motion") {
+    // r: the upper one's speed on the lower one, w: the lower one's on the ground, unit masses.
+    auto const model =
+        support::model_of({2, 2, 1}, [](auto const&, auto const& x, auto const& k, auto const& u) {
+            auto const s = sign(x[0]), g = sign(x[1]);
+            return std::vector{u[0] - 2 * k[0] * s + k[1] * g, k[0] * s - k[1] * g};
+        });
+    support::draws d(3207);
+    std::size_t reached = 0;
+    for (int n = 0; n < 60; ++n) {
+        double const F = d.uniform(0.3, 2), G = d.uniform(0.3, 2);
+        auto const u = pushes(d, std::min(F, G));
+        auto const f = support::flow_of(model, {u});
+        parametric_flow<> run(
+            *f, for_span(enclosure_options{.order = 8, .tolerance = 1e-9, .maximum_steps = 300}, 3),
+            0, 0);
+        run.begin(0, box{interval(0.0), interval(0.0)}, box{interval(F), interval(G)});
+        double r = 0, w = 0;
+        for (std::size_t j = 0; j < 10; ++j) {
+            double const end = u.times()[j + 1], push = u.values()[j];
+            while (run.running() && run.time() < end) (void)run.step(end);
+            if (!run.running()) break;
+            for (double h = end - u.times()[j]; h > 0;) {
+                auto const side = [](double x) { return x == 0 ? 0 : std::copysign(1.0, x); };
+                double s = side(r), g = side(w);
+                if (r == 0 && w == 0 && std::abs(push) > std::min(F, G))
+                    (F < G ? s : g) = side(push);
+                if (s == 0 && g == 0)
+                    s = push / F;
+                else if (s == 0)
+                    s = std::clamp((push + G * g) / (2 * F), -1.0, 1.0);
+                if (g == 0) g = std::clamp(F * s / G, -1.0, 1.0);
+                auto const rate = [](double x) { return std::abs(x) < 1e-14 ? 0 : x; };
+                double const a = rate(push - 2 * F * s + G * g), b = rate(F * s - G * g);
+                double const stop_r = a * r < 0 ? -r / a : h, stop_w = b * w < 0 ? -w / b : h;
+                double const piece = std::min({h, stop_r, stop_w});
+                r = stop_r == piece && a * r < 0 ? 0 : r + a * piece;
+                w = stop_w == piece && b * w < 0 ? 0 : w + b * piece;
+                h -= piece;
+            }
+            ++reached;
+            auto const hull = run.set().hull();
+            CAPTURE(n, j, F, G, push, hull[0], hull[1], r, w);
+            CHECK(holds(hull[0], r));
+            CHECK(holds(hull[1], w));
+        }
+    }
+    CHECK(reached > 500); // of 600
+}

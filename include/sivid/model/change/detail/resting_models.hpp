@@ -26,7 +26,9 @@ struct resting_model {
 /// sign that makes y' = 0 is a/b (the only one, as b > 0), and what y stands in of the other rates
 /// is equal; and y cannot leave 0, since beside it y' = a - b < 0 above and a + b > 0 below.
 /// Other signs are what they were; where their arguments may be 0 on the tube, the conditions
-/// hold for all their values. (Of a product of two signs Filippov's set has values that no pair of
+/// hold for all their values: so they do for a second state that comes to rest, whose sign
+/// stands on in the conditions of the first. (With a/b in its place, solutions may leave 0 in a
+/// spiral through both signs. Of a product of two signs Filippov's set has values that no pair of
 /// signs has: there is no such model.)
 /// @param resting  of how many states the model is one already: its outputs are kept as conditions
 /// @cost  O(signs * nodes)
@@ -58,17 +60,15 @@ struct resting_model {
         auto const copy = [&](std::vector<node_id> const& nodes) {
             return freed.copy(to, nodes, [&](std::size_t j, graph&) { return value[j]; });
         };
-        value[k] = to.constant(0.0);
         for (std::size_t j = 0; j < signs.size(); ++j)
-            if (j != k) value[j] = to.unary(operation::sign, copy({signs[j].argument})[0]);
+            value[j] = to.unary(operation::sign, copy({signs[j].argument})[0]);
+        std::vector<node_id> conditions;
+        if (resting > 0) conditions = copy({freed.outputs().begin() + n, freed.outputs().end()});
+        value[k] = to.constant(0.0);
         auto const a = copy({rates[i]})[0], b = to.neg(copy({slopes[i]})[0]);
         value[k] = to.div(a, b);
         auto all = copy(rates);
         all[i] = to.constant(0.0);
-        std::vector<node_id> conditions;
-        if (resting > 0) {
-            conditions = copy({freed.outputs().begin() + n, freed.outputs().end()});
-        }
         conditions.push_back(value[k]);
         conditions.push_back(b);
         auto changed = with_equations(model, std::move(to), all, conditions);
