@@ -5,10 +5,12 @@
 #include "text/values.hpp"
 
 #include <sivid/model/affected_problem.hpp>
+#include <sivid/model/change/added_start.hpp>
 #include <sivid/model/effects.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/text/read_model.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -163,6 +165,68 @@ outputs = "w -= k*d"
     CHECK(contains(found.hull[0], b));
     CHECK(contains(found.hull[1], 1));
     CHECK(contains(found.hull[2], tau));
+}
+
+TEST_CASE("a state of an effect whose start is unknown has one of its own in each experiment") {
+    auto const written = [](std::string const& start) {
+        std::string text = R"toml(format = "sivid-model-1"
+name = "cart"
+equations = "x' = v; v' = -k*x"
+states = { x = "3 m", v = "5 m/s" }
+constants.k = "[1, 3] 1/s^2"
+outputs.x = "x"
+[effect.hanging_mass]
+constants.c = "[0, 1] 1/s^2"
+states = { z = { range = "1 m"START }, u = { range = "3 m/s"START } }
+equations = """
+v' += c*(z - x)
+z' = u
+u' = -4 [1/s^2]*(z - x)
+"""
+)toml";
+        for (auto at = text.find("START"); at != text.npos; at = text.find("START"))
+            text.replace(at, 5, start);
+        return model_from_text(text, "cart.toml");
+    };
+    double const k = 2, c = 0.5, h = 1e-3;
+    using state = std::array<double, 4>;
+    auto const rate = [&](state const& s) -> state {
+        return {s[1], -k * s[0] + c * (s[2] - s[0]), s[3], -4 * (s[2] - s[0])};
+    };
+    auto const moved = [](state s, state const& d, double by) {
+        for (std::size_t i = 0; i < 4; ++i) s[i] += by * d[i];
+        return s;
+    };
+    std::vector<experiment> all;
+    for (state s : {state{1, 0, 0.7, -0.4}, state{0, 1, -0.6, 0.9}}) { // by Runge and Kutta
+        auto& e = all.emplace_back();
+        e.name = "swing" + std::to_string(all.size());
+        e.initial = {interval(s[0]), interval(s[1])};
+        for (int n = 1; n <= 3000; ++n) {
+            auto const k1 = rate(s), k2 = rate(moved(s, k1, h / 2)), k3 = rate(moved(s, k2, h / 2)),
+                       k4 = rate(moved(s, k3, h));
+            for (auto const& [d, share] : {std::pair{k1, 1.0}, {k2, 2.0}, {k3, 2.0}, {k4, 1.0}})
+                s = moved(s, d, share * h / 6);
+            if (n % 100 == 0)
+                e.measurements.push_back({n * h, 0, interval(s[0] - 0.01, s[0] + 0.01)});
+        }
+    }
+    auto const posed = [&](std::string const& start) {
+        auto const text = written(start);
+        return affected({text.model, text.parameters(), text.prior, all}, text.effects);
+    };
+    identify_options options;
+    options.search.seconds = 1e6;
+    options.search.boxes = 200;
+    CHECK(identify(posed(""), options).verdict == verdict::inconsistent); // both begin at 0
+    auto const problem = posed(", start = \"unknown\"");
+    CHECK(problem.experiments[1].initial[2].upper() == 1);
+    CHECK_FALSE(starts_follow_parameters(problem));
+    auto const found = identify(problem, options);
+    CHECK(found.verdict == verdict::consistent);
+    CHECK(contains(found.hull[0], k));
+    CHECK(contains(found.hull[1], c));
+    CHECK(width(found.hull[0]) < 1);
 }
 
 TEST_CASE("states of effects that are wrong are told") {

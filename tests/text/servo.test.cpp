@@ -71,7 +71,7 @@ TEST_CASE("on a stiff spring the servo's pendulum moves as without one") {
 
 TEST_CASE("each effect of an actuator is found again where it was planted") {
     auto const text = read_model(SIVID_SOURCE_DIR "/examples/servo/servo.toml");
-    CHECK(text.effects.size() == 18);
+    CHECK(text.effects.size() == 20);
     for (auto const& e : text.effects) {
         CAPTURE(e.name);
         identification_problem plain{text.model, {{"kt"}, {}}, {interval(0.36, 0.38)}, {swing()}};

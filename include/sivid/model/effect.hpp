@@ -152,9 +152,10 @@ public:
     /// A further state, whose rate the effect sets.
     /// @param limit     own range
     /// @param at_begin  its initial value, in inputs (at the begin), constants, and states that
-    ///                  effects added before
+    ///                  effects added before; none: it is unknown, anywhere in its range, in each
+    ///                  experiment
     expression add_state(std::string const& name, std::string const& unit, state_range limit,
-                         expression const& at_begin);
+                         std::optional<expression> const& at_begin);
     /// The model sees the input behind a memory whose size is the effect's k-th parameter: late, by
     /// a time or (`drift`: its clock runs slow) by a share of the time since the begin; behind a
     /// play of this half-width; behind a rate limit.

@@ -373,12 +373,12 @@ private:
         auto const known = request_.initial.size();
         auto const constants = constant_ranges(further.model, choice, problem_.prior);
         request_.initial =
-            start_with_added(further.model, constants, request_.inputs, request_.initial);
+            start_with_added(further.model, constants, request_.inputs, 0, request_.initial);
         for (auto i = known; i < request_.initial.size(); ++i)
             if (!is_one_value(request_.initial[i]))
                 throw bad_request("--with: the state '" + further.model.about.states[i].name +
-                                  "' of an effect begins where parameters say; give them one value "
-                                  "each");
+                                  "' of an effect begins at more than one value; where parameters "
+                                  "say where, give them one value each");
         further_ = std::move(further.model);
         if (further_->has_memory() && !stored_.disturbances.empty())
             throw bad_request("--with: delays, plays and rate limits are not covered beside the "

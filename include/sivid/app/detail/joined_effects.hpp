@@ -72,19 +72,6 @@ inline joined_effects join_effects(recorded_model const& base, std::vector<effec
     return result;
 }
 
-/// Where the states of a model start that effects have added to those of a scenario.
-/// @param start   of the states of the scenario
-/// @param inputs  of the scenario
-[[nodiscard]] inline box start_with_added(recorded_model const& model,
-                                          std::vector<interval> const& constants,
-                                          std::vector<signal> const& inputs, box const& start) {
-    std::vector<interval> sides(start.begin(), start.end());
-    for (auto k = sides.size(); k < model.about.states.size(); ++k)
-        for (auto const& a : model.added_states)
-            if (a.state == k) sides.push_back(start_of(model, a, constants, inputs, 0));
-    return box(std::move(sides));
-}
-
 } // namespace sivid::app
 
 #endif

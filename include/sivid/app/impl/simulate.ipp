@@ -82,7 +82,7 @@ public:
         box stated(s.initial.size());
         for (std::size_t i = 0; i < s.initial.size(); ++i) stated[i] = s.initial[i].enclosure;
         auto const start_for = [&](parameter_choice const& choice) {
-            return start_with_added(model, constant_ranges(model, choice, {}), inputs, stated);
+            return start_with_added(model, constant_ranges(model, choice, {}), inputs, 0, stated);
         };
         auto const start = start_for({{}, c.set});
         auto const middle = mid(start_for(constants));

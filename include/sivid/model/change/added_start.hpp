@@ -67,19 +67,28 @@ namespace sivid {
     return value;
 }
 
+/// Where the states of a model start that effects have added to those of `start`: as they say, for
+/// the parameters in these ranges, or anywhere in their own.
+/// @param inputs  those of the model
+/// @throws std::domain_error where such a value is not defined
+[[nodiscard]] inline box start_with_added(recorded_model const& model,
+                                          std::vector<interval> const& constants,
+                                          std::vector<signal> const& inputs, double begin,
+                                          box const& start) {
+    std::vector<interval> sides(start.begin(), start.end());
+    auto const& states = model.about.states;
+    for (auto k = sides.size(); k < states.size(); ++k) sides.push_back(states[k].limit.range());
+    for (auto const& a : model.added_states)
+        sides[a.state] = start_of(model, a, constants, inputs, begin);
+    return box(std::move(sides));
+}
+
 /// Sets the initial ranges of the states that effects added, for the parameters in the prior.
 /// @throws std::domain_error where such a value is not defined
 inline void start_added_states(identification_problem& problem) {
-    auto const& about = problem.model.about;
     auto const constants = constant_ranges(problem.model, problem.choice, problem.prior);
-    for (auto& e : problem.experiments) {
-        std::vector<interval> sides(e.initial.begin(), e.initial.end());
-        sides.resize(about.states.size());
-        for (auto const& a : problem.model.added_states) {
-            sides[a.state] = start_of(problem.model, a, constants, e.inputs, e.begin);
-        }
-        e.initial = box(std::move(sides));
-    }
+    for (auto& e : problem.experiments)
+        e.initial = start_with_added(problem.model, constants, e.inputs, e.begin, e.initial);
 }
 
 /// Whether a state that effects added starts at a value that the parameters decide, or inputs

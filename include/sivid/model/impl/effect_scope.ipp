@@ -171,13 +171,14 @@ SIVID_DECL void effect_scope::lag_channel(std::string const& name, std::size_t k
 }
 
 SIVID_DECL expression effect_scope::add_state(std::string const& name, std::string const& unit,
-                                              state_range limit, expression const& at_begin) {
+                                              state_range limit,
+                                              std::optional<expression> const& at_begin) {
     auto const k = model_->about.states.size();
     for (auto const& s : model_->about.states)
         if (s.name == name)
             throw std::invalid_argument("effect: the model has a state '" + name + "'");
     model_->about.states.push_back({name, unit, limit, {}});
-    model_->added_states.push_back({k, at_begin.in(model_->g)});
+    if (at_begin) model_->added_states.push_back({k, at_begin->in(model_->g)});
     states_.emplace_back(model_->g, model_->g.leaf(operation::state, k));
     rates_.emplace_back(0.0);
     owners_.push_back(effect_);

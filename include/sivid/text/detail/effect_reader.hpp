@@ -36,6 +36,7 @@ struct effect_text {
         unit in;
         std::size_t position = 0;
         std::optional<formula> start{}; ///< else 0
+        bool unknown = false;           ///< it starts anywhere
     };
     std::shared_ptr<model_source const> source;
     std::shared_ptr<model_names const> names;
@@ -51,8 +52,9 @@ struct effect_text {
         auto values = values_at(scope, stage::starts, no_parts);
         for (auto const& s : states) {
             auto const& [name, unit_text, limit, equation] = s.is;
-            auto const start =
-                s.start ? values.fitted(*s.start, s.in, "'" + name + "'").value : expression(0);
+            std::optional<expression> start;
+            if (!s.unknown) start.emplace(0);
+            if (s.start) start = values.fitted(*s.start, s.in, "'" + name + "'").value;
             (void)scope.add_state(in_model(name), unit_text, limit, start);
         }
     }
@@ -380,7 +382,11 @@ private:
             text.states.push_back({std::move(is), in, e.key});
             if (!e.node->is_table()) continue;
             auto const fields = states->within(e);
-            if (auto const* start = fields.find("start")) {
+            auto const* start = fields.find("start");
+            if (start == nullptr) continue;
+            text.states.back().unknown =
+                start->node->is_string() && fields.string_of(*start) == "unknown";
+            if (!text.states.back().unknown) {
                 text.states.back().start = fields.formula_of(*start);
                 names_->use(*text.states.back().start);
             }

@@ -83,8 +83,9 @@ never_defined(graph const& g, std::vector<partial_operation> const& all, leaf_ra
         };
         leaf_ranges at{next(0, 10), box(joined.about.states.size()),
                        box(joined.about.constants.size()), box(joined.about.inputs.size())};
-        for (std::size_t i = 0; i < n; ++i)
-            at.states[i] = next(base.about.states[i].limit.lower, base.about.states[i].limit.upper);
+        for (std::size_t i = 0; i < at.states.size(); ++i)
+            at.states[i] =
+                next(joined.about.states[i].limit.lower, joined.about.states[i].limit.upper);
         for (std::size_t k = 0; k < at.constants.size(); ++k)
             at.constants[k] = joined.about.constants[k].nominal.enclosure;
         for (std::size_t k = 0; k < at.inputs.size(); ++k) at.inputs[k] = next(-3, 3);
