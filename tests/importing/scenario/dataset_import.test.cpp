@@ -337,11 +337,8 @@ TEST_CASE("the servo's mappings: logs of their form become windows that hold the
             }
             folder.write("kp" + kp + "_" + what + ".csv", text);
         }
-    for (auto const& [file, windows] : {std::pair{"released", 3u},
-                                        {"swinging", 8u},
-                                        {"driven", 12u},
-                                        {"elastic_off", 11u},
-                                        {"elastic_all", 23u}}) {
+    for (auto const& [file, windows] :
+         {std::pair{"released", 3u}, {"swinging", 8u}, {"driven", 12u}, {"all", 23u}}) {
         auto const mapping = read_text(std::filesystem::path{SIVID_SOURCE_DIR} / "examples/servo" /
                                        (std::string{file} + ".json"));
         folder.write("mapping.json", mapping);
