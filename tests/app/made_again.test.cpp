@@ -112,6 +112,12 @@ TEST_CASE("a least disturbance is checked, and one that was forged is refused") 
     refused("measurements within their stated bounds", "nothing");
     auto const digest = json.find("\"sha256\": \"") + 11;
     refused(json.substr(digest, 64), std::string(64, '0'), 5);
+    refused("\n  \"seconds\": ", "\n  \"seconds\": 1, \"proved\": \"for all\", \"ms\": ", 5);
+    refused("\"source\": {", "\"source\": {\"proved\": \"for all\", ", 5);
+    s.folder().write("least/products.csv", "of no result here");
+    CHECK_THAT(checked(s, "least").out, ContainsSubstring("not checked: ") &&
+                                            ContainsSubstring("products.csv") &&
+                                            !ContainsSubstring("curve.csv,"));
     std::string const table = "least/disturbance.csv";
     auto const rows = text_of(fs::path{s.at("least")} / "disturbance.csv");
     auto const last = rows.substr(rows.rfind(',') + 1, rows.size() - rows.rfind(',') - 2);

@@ -174,6 +174,44 @@ TEST_CASE("causes that are forged are refuted or not proved") {
           outcome::refuted);
 }
 
+TEST_CASE("what is said beside the bounds of an answer is compared with them") {
+    auto const& c = with_drag();
+    auto const explains = cause_with(c.stored, "explains");
+    CHECK(c.forged([](json& d) { d["answer"]["formulas"] = {"v' becomes 0"}; }) ==
+          outcome::refuted);
+    CHECK(c.forged([](json& d) { d["answer"]["symbols"]["drag.k"] = "m"; }) == outcome::refuted);
+    CHECK(c.forged([&](json& d) { d["causes"][explains]["excluded_by"] = "x"; }) ==
+          outcome::refuted);
+    CHECK(c.forged([](json& d) { // the model as it is explains nothing
+        d["answer"]["kind"] = "unexplained";
+        d["answer"]["effects"] = json::array();
+        d["answer"]["formulas"] = json::array();
+        d["answer"]["symbols"] = json::object();
+    }) == outcome::refuted);
+    auto const& constants = c.stored["answer"]["constants"];
+    bool any = false;
+    for (auto const& entry : constants.items()) {
+        if (entry.value()["hull"].is_null()) continue;
+        any = true;
+        CHECK(c.forged([&](json& d) { // nobody looked there
+            d["answer"]["constants"][entry.key()]["prior"] = {0, 1000};
+        }) == outcome::refuted);
+    }
+    CHECK(any);
+    CHECK(c.forged([](json& d) { // a place that nobody proved
+        d["remainder"] = {{"effects", json::array()},
+                          {"inflation", d["gap"]["inflation"]},
+                          {"where", {d["where"][0]}},
+                          {"disturbances", json::array()}};
+        d["remainder"]["where"][0]["proved"] = true;
+    }) == outcome::refuted);
+    for (auto const* const where : {"", "gap", "answer"}) {
+        auto bad = c.stored;
+        (*where == 0 ? bad : bad[where])["proved"] = "for all";
+        CHECK_THROWS_AS(c.check(bad), input_error);
+    }
+}
+
 TEST_CASE("relations and places that are forged are not proved") {
     auto const& c = with_drag();
     REQUIRE_FALSE(c.stored["relations"].empty());

@@ -132,6 +132,7 @@ struct named_combination {
     struct part {
         std::string name;
         int number = 1; ///< exponent; 1 or -1 in a sum
+        bool operator==(part const&) const = default;
     };
     named_estimate about; ///< its name is a formula, for instance "k/Iz"; its prior that of all
     std::vector<part> parts;

@@ -8,15 +8,17 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace sivid {
 
 /// Whether a witness shows the upper size of disturbances: its pieces are no larger, and a run of
 /// first-order sets with them keeps all bounds.
-[[nodiscard]] inline check_finding check_disturbance_witness(identification_problem const& problem,
-                                                             disturbance_set const& set,
-                                                             disturbance_bound const& found) {
+/// @param keep_going  asked before each experiment
+[[nodiscard]] inline check_finding
+check_disturbance_witness(identification_problem const& problem, disturbance_set const& set,
+                          disturbance_bound const& found, std::function<bool()> const& keep_going) {
     using outcome = check_finding::outcome;
     using traits = interval_traits<interval>;
     if (!found.witness) return {"witness", outcome::nothing, ""};
@@ -40,8 +42,14 @@ namespace sivid {
                 sampled_signal(from, values, interpolation::hold);
         }
     }
-    approximate_fit const at{found.witness->parameters, found.witness->starts, {}};
-    bool const kept = io_detail::judge_point<interval>(posed, at, true) == run_finding::explained;
+    bool kept = true;
+    for (std::size_t s = 0; s < posed.experiments.size() && kept; ++s) {
+        if (!keep_going()) return {"witness", outcome::undecided, "no time is left"};
+        auto one = posed;
+        one.experiments = {posed.experiments[s]};
+        approximate_fit const at{found.witness->parameters, {found.witness->starts[s]}, {}};
+        kept = io_detail::judge_point<interval>(one, at, true) == run_finding::explained;
+    }
     return {"witness", kept ? outcome::verified : outcome::undecided,
             "by first-order sets, with its disturbances"};
 }

@@ -26,6 +26,7 @@
 #ifdef SIVID_HAS_MPFI
 #include <sivid/verifier/mp_identification_check.hpp>
 #endif
+#include <sivid/work_limit.hpp>
 
 #include <algorithm>
 #include <array>
@@ -98,17 +99,18 @@ inline check_finding source_of(std::filesystem::path const& folder, dataset cons
     return {"data set", outcome::verified, "the one " + done + ", by SHA-256"};
 }
 
-/// Names what lies in the folder and was not looked at: pictures, pages, other commands' results.
-inline void print_unchecked(std::filesystem::path const& folder) {
+/// Names what lies in the folder and was not looked at: pictures, pages, tables of no result here.
+/// @param used  tables of this one
+inline void print_unchecked(std::filesystem::path const& folder,
+                            std::vector<std::string> const& used) {
     std::vector<std::string> names;
     std::error_code fault;
     for (auto const& entry : std::filesystem::directory_iterator(folder, fault)) {
         auto const name = entry.path().filename().string();
-        constexpr std::array checked{"result.json",      "boxes.csv",      "products.csv",
-                                     "certificates.csv", "outputs.csv",    "diagnosis.json",
-                                     "confidence.json",  "confidence.csv", "disturbance.csv",
+        constexpr std::array results{"result.json", "diagnosis.json", "confidence.json",
                                      "disturbance.json"};
-        if (std::ranges::find(checked, name) == checked.end())
+        if (std::ranges::find(results, name) == results.end() &&
+            std::ranges::find(used, name) == used.end())
             names.push_back(printable_text(name, 60));
     }
     std::ranges::sort(names);
@@ -123,7 +125,7 @@ inline void print_unchecked(std::filesystem::path const& folder) {
 
 /// The findings in a sentence, and the exit code.
 inline int concluded(std::string const& title, std::vector<check_finding> const& findings,
-                     std::filesystem::path const& folder) {
+                     std::filesystem::path const& folder, std::vector<std::string> const& used) {
     auto const verdict = overall(findings);
     double seconds = 0;
     std::string left;
@@ -131,7 +133,7 @@ inline int concluded(std::string const& title, std::vector<check_finding> const&
         seconds += f.seconds;
         if (f.found == outcome::nothing && !f.detail.empty()) left += ", not the " + f.what;
     }
-    print_unchecked(folder);
+    print_unchecked(folder, used);
     result_stream() << title << ": "
                     << (verdict == outcome::refuted     ? "REFUTED"
                         : verdict == outcome::undecided ? "not verified within the budget"
@@ -179,8 +181,10 @@ inline int check_identification(robot const& r, check_command const& c) {
                                     "), then the test of the search\n"
                               : ", by first-order sets (Lohner" + by +
                                     "), what they leave open by the test of the search\n");
+    std::vector<std::string> used{"boxes.csv", "certificates.csv", "outputs.csv"};
+    if (stored.products) used.emplace_back("products.csv");
     return concluded(title_of(data, stored.effects, stored.disturbances, problem.model), findings,
-                     c.result);
+                     c.result, used);
 }
 
 /// A diagnosis: every claim by its own prover, whatever --sample says.
@@ -204,9 +208,20 @@ inline int check_diagnosed(robot const& r, check_command const& c) {
     options.test.keep_going = wanted;
     auto findings = check_diagnosis(base, chosen_effects(r.effects, data), stored, options, print);
     findings.push_back(source);
-    return concluded(data.id, findings, c.result);
+    return concluded(data.id, findings, c.result, {});
 }
 
+/// The members of a file of results, and of its source.
+inline std::vector<std::string> members_of(std::filesystem::path const& file,
+                                           std::string const& text) {
+    std::vector<std::string> names;
+    if (file.extension() != ".json") return names;
+    auto const root = parse_json(file.string(), text);
+    for (auto const* object : {&root, &root.at("source")})
+        for (std::size_t k = 0; k < object->members().size(); ++k)
+            names.push_back(object->name_of(k));
+    return names;
+}
 /// Whether a file is what the same work writes here, but for its seconds and where the data lie.
 inline check_finding made_again(std::filesystem::path const& file, std::string const& made) {
     auto const lines = [](std::string const& text) {
@@ -216,8 +231,11 @@ inline check_finding made_again(std::filesystem::path const& file, std::string c
             if (line.starts_with("  \"seconds\"") || line.starts_with("  \"source\"")) line.clear();
         return all;
     };
-    auto const stored = lines(read_text(file)), own = lines(made);
+    auto const text = read_text(file);
+    auto const stored = lines(text), own = lines(made);
     auto const name = file.filename().string();
+    if (members_of(file, text) != members_of(file, made))
+        return {name, outcome::refuted, "it has other members than what is made anew"};
     if (stored == own) return {name, outcome::verified, "made anew, the same to the last digit"};
     auto const at = std::ranges::mismatch(stored, own).in1 - stored.begin();
     return {name, outcome::undecided,
@@ -225,7 +243,7 @@ inline check_finding made_again(std::filesystem::path const& file, std::string c
 }
 
 /// A result of `confidence` or `disturbance`, by the same work once more.
-/// @param made  receives the command and the file, and proves
+/// @param made  receives the command and the file, proves, and tells what it finds
 template <class Command, class Made>
 int check_by_making(robot const& r, check_command const& told, std::string const& file,
                     Made const& made) {
@@ -242,17 +260,24 @@ int check_by_making(robot const& r, check_command const& told, std::string const
                               source.at("sha256").string(), "used")};
     print(all.front());
     if (all.front().found == outcome::refuted) return refuted;
-    for (auto& f : made(again, root, data)) {
+    std::vector<std::string> used;
+    stopwatch const clock;
+    double before = 0;
+    made(again, root, data, [&](check_finding f) {
+        double const now = clock.spent();
+        f.seconds = now - before;
+        before = now;
         print(f);
+        used.push_back(f.what);
         all.push_back(std::move(f));
-    }
-    return concluded(data.id, all, told.result);
+    });
+    return concluded(data.id, all, told.result, used);
 }
 
 inline int check_region(robot const& r, check_command const& c) {
     return check_by_making<confidence_command>(
         r, c, "confidence.json",
-        [&](confidence_command& again, auto const& root, auto const& data) {
+        [&](confidence_command& again, auto const& root, auto const& data, auto const& tell) {
             again.probability = io_detail::nearest_number(root.at("probability"));
             again.seed = io_detail::count(root.at("seed"));
             again.sums = io_detail::count(root.at("sums"));
@@ -261,11 +286,10 @@ inline int check_region(robot const& r, check_command const& c) {
             auto const problem = posed(r, data, again.effects, {});
             auto const nominal = io_detail::by_name(root.at("nominal"), io_detail::nearest_number);
             auto const region = region_of(r, again, data, problem, {.nominal = nominal});
-            return std::vector{
-                made_again(c.result / "confidence.json",
-                           confidence_json(again, problem, data.id, region)),
-                made_again(c.result / "confidence.csv",
-                           io_detail::paving_csv(region.names, region.found.paving))};
+            tell(made_again(c.result / "confidence.json",
+                            confidence_json(again, problem, data.id, region)));
+            tell(made_again(c.result / "confidence.csv",
+                            io_detail::paving_csv(region.names, region.found.paving)));
         });
 }
 
@@ -277,20 +301,19 @@ inline int check_least_disturbance(robot const& r, check_command const& c) {
         return all;
     };
     return check_by_making<disturbance_command>(
-        r, c, "disturbance.json", [&](disturbance_command& again, auto const& root, auto const&) {
+        r, c, "disturbance.json",
+        [&](disturbance_command& again, auto const& root, auto const&, auto const& tell) {
             again.curve = io_detail::count(root.at("curve"));
             least_disturbance_answer const a(r, again, scales(root.at("equations")),
                                              scales(root.at("channels")));
-            std::vector all{
-                check_disturbance_witness(a.problem, a.set, a.found),
-                made_again(c.result / "disturbance.json", disturbance_json(again, a)),
-                made_again(c.result / "disturbance.csv", disturbance_csv(a.problem, a.found))};
-            if (a.curve.size() > 0)
-                all.push_back(made_again(c.result / "curve.csv", curve_csv(a.curve)));
             bool const apart =
                 is_empty(intersect(io_detail::outward(root.at("size")), a.found.size));
-            if (apart) all.push_back({"size", outcome::refuted, "it is proved to be another one"});
-            return all;
+            if (apart) tell({"size", outcome::refuted, "it is proved to be another one"});
+            tell(made_again(c.result / "disturbance.json", disturbance_json(again, a)));
+            tell(made_again(c.result / "disturbance.csv", disturbance_csv(a.problem, a.found)));
+            if (a.curve.size() > 0) tell(made_again(c.result / "curve.csv", curve_csv(a.curve)));
+            tell(check_disturbance_witness(a.problem, a.set, a.found,
+                                           work_limit(c.budget.value_or(60), wanted)));
         });
 }
 

@@ -25,6 +25,9 @@ class diagnosis_parser {
 public:
     [[nodiscard]] stored_diagnosis operator()(json_value const& root) {
         mapping_entries::require_format(root, "sivid-diagnosis-1");
+        root.allow_only({"format", "dataset", "source", "problem", "time_unit", "gap", "relations",
+                         "where", "causes", "answer", "shrink", "remainder", "next", "unobservable",
+                         "assumptions", "withdrawn", "interrupted", "seconds", "by_clock"});
         stored_diagnosis result;
         result.dataset = root.at("dataset").any_string();
         if (auto const* source = root.find("source")) {
@@ -33,8 +36,7 @@ public:
         }
         if (auto const* problem = root.find("problem")) result.source.problem = problem->string();
         auto& d = result.claims;
-        d.time_unit.clear(); // earlier versions do not say
-        if (auto const* unit = root.find("time_unit")) d.time_unit = unit->string();
+        d.time_unit = root.at("time_unit").string();
         gap(root.at("gap"), d);
         for (auto const& r : root.at("relations").elements()) d.relations.push_back(relation(r));
         d.where = places(root.at("where"));
@@ -47,9 +49,8 @@ public:
         if (auto const& rest = root.at("remainder"); !is_null(rest)) {
             d.remainder = unexplained_remainder{
                 texts(rest.at("effects")), outward(rest.at("inflation")), places(rest.at("where"))};
-            if (auto const* all = rest.find("disturbances")) // earlier versions have none
-                for (auto const& n : all->elements())
-                    d.remainder->disturbances.push_back(disturbance(n));
+            for (auto const& n : rest.at("disturbances").elements())
+                d.remainder->disturbances.push_back(disturbance(n));
         }
         d.unobservable = texts(root.at("unobservable"));
         d.assumptions = texts(root.at("assumptions"));
@@ -112,6 +113,8 @@ private:
     }
 
     static void gap(json_value const& entry, diagnosis& d) {
+        entry.allow_only(
+            {"verdict", "inflation", "witness", "scenarios", "channels", "confined", "reach"});
         d.gap = one_of(entry.at("verdict"),
                        {gap_verdict::none, gap_verdict::certified, gap_verdict::undecided});
         d.inflation = outward(entry.at("inflation"));
@@ -185,6 +188,9 @@ private:
         return all;
     }
     [[nodiscard]] static cause cause_of(json_value const& entry) {
+        entry.allow_only({"effects", "verdict", "inflation", "fitted_inflation", "score",
+                          "parameters", "estimates", "onsets", "ends", "witness", "assumptions",
+                          "untouched", "excluded_by", "holdout"});
         cause c;
         c.effects = texts(entry.at("effects"));
         c.verdict = one_of(entry.at("verdict"), {cause_verdict::explains, cause_verdict::excluded,
@@ -212,6 +218,8 @@ private:
         return c;
     }
     static void answer(json_value const& entry, diagnosis& d) {
+        entry.allow_only({"kind", "effects", "tried", "constants", "combinations", "journal",
+                          "formulas", "symbols", "verified", "at_ends", "indistinguishable"});
         d.answer = one_of(entry.at("kind"), {answer_kind::none, answer_kind::effects,
                                              answer_kind::unexplained, answer_kind::open});
         d.effects = texts(entry.at("effects"));
@@ -221,8 +229,17 @@ private:
             next.about = {c.at("formula").string(), c.at("unit").any_string(),
                           nearest_number(c.at("value")), maybe_range(c.at("hull")),
                           maybe_range(c.at("prior"))};
+            next.is_sum = c.find("factors") == nullptr;
+            auto const& parts = c.at(next.is_sum ? "terms" : "factors");
+            for (std::size_t k = 0; k < parts.members().size(); ++k)
+                next.parts.push_back(
+                    {parts.name_of(k), static_cast<int>(nearest_number(parts.members()[k]))});
             d.combinations.push_back(std::move(next));
         }
+        d.change.lines = texts(entry.at("formulas"));
+        auto const& symbols = entry.at("symbols");
+        for (std::size_t k = 0; k < symbols.members().size(); ++k)
+            d.change.symbols[symbols.name_of(k)] = symbols.members()[k].any_string();
         d.constants_verified = entry.at("verified").boolean();
         for (auto const& other : entry.at("indistinguishable").elements())
             d.indistinguishable.push_back(texts(other));

@@ -20,6 +20,7 @@
 #include <sivid/diagnosis/verification.hpp>
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/model/affected_problem.hpp>
+#include <sivid/model/change/changed_formulas.hpp>
 #include <sivid/model/named_effects.hpp>
 #include <sivid/number/interval.hpp>
 #include <sivid/number/text/joined.hpp>
@@ -309,7 +310,9 @@ public:
         add([&] { return judged(); });
         all_.push_back(
             {"estimates", outcome::nothing,
-             "fits, places that are not proved, laws, scores, what cannot be observed, words"});
+             "fits, places that are not proved, laws, regimes, scores, what was tried, what cannot "
+             "be "
+             "observed, ends of priors, where a witness needs most, the next experiment, words"});
         if (tell) tell(all_.back());
         return all_;
     }
@@ -332,7 +335,7 @@ private:
             return {what, outcome::undecided, "the diagnosis does not say which"};
         if (stored_->source.problem != problem_digest(*base_))
             return {what, outcome::refuted, "another one was diagnosed"};
-        if (!d_->time_unit.empty() && d_->time_unit != base_->model.about.time_unit)
+        if (d_->time_unit != base_->model.about.time_unit)
             return {what, outcome::refuted, "another unit of time"};
         return {what, outcome::verified, "the one that was diagnosed, by SHA-256"};
     }
@@ -356,6 +359,13 @@ private:
             all.note(outcome::refuted, "the answer is none of the causes");
         if (d_->answer == answer_kind::none && d_->gap != gap_verdict::none)
             all.note(outcome::refuted, "no effect is said to be needed, but a gap may be there");
+        if (!answered && !d_->effects.empty())
+            all.note(outcome::refuted, "an answer without effects names some");
+        for (auto const& c : d_->causes)
+            if (!c.excluded_by.empty() && c.verdict != cause_verdict::excluded)
+                all.note(outcome::refuted, "a relation excludes what is not excluded");
+        all.note(same_change() ? outcome::verified : outcome::refuted,
+                 "the formulas are not those of the answer");
         if (d_->remainder) {
             auto const& rest = *d_->remainder;
             auto const of = std::ranges::find(d_->causes, rest.effects, &cause::effects);
@@ -364,6 +374,9 @@ private:
             if (range == nullptr || range->lower() != rest.inflation.lower() ||
                 range->upper() != rest.inflation.upper())
                 all.note(outcome::refuted, "the remainder is that of no cause");
+            if (std::ranges::any_of(rest.where,
+                                    [](auto const& p) { return p.proved || p.missing; }))
+                all.note(outcome::refuted, "a place of the remainder is an estimate");
         }
         if (d_->constants_verified) {
             auto const* w = answered && at != d_->causes.end() ? &at->witness : &d_->witness;
@@ -372,10 +385,24 @@ private:
                 return p != (*w)->parameters.end() && p->value == c.value;
             });
             if (!same) all.note(outcome::refuted, "the constants are not those of a witness");
-            if (answered && at != d_->causes.end() && at->verdict != cause_verdict::explains)
+            bool const explains = answered && at != d_->causes.end()
+                                      ? at->verdict == cause_verdict::explains
+                                      : d_->gap == gap_verdict::none;
+            if (!explains)
                 all.note(outcome::refuted, "the constants explain the data, the answer does not");
         }
         return all.finding(what, "none contradicts another");
+    }
+    /// Whether what a simulator is told is what the answer changes.
+    [[nodiscard]] bool same_change() const {
+        changed_formulas again;
+        std::vector<effect> named;
+        std::string why;
+        if (d_->answer == answer_kind::effects) {
+            if (!with_effects(*base_, *catalogue_, d_->effects, named, why)) return false;
+            again = formulas_of(base_->model, named);
+        }
+        return d_->change.lines == again.lines && d_->change.symbols == again.symbols;
     }
 
     /// What disturbances of single equations are needed: bounded anew, with as much work.
@@ -396,6 +423,11 @@ private:
             if (of == states.end()) {
                 all.note(outcome::refuted, "no equation " + n.equation);
                 continue;
+            }
+            for (auto const& w : n.strongest) {
+                auto const e = std::ranges::find(base_->experiments, w.scenario, &experiment::name);
+                if (e == base_->experiments.end() || !(e->begin <= w.from && w.from <= w.to))
+                    all.note(outcome::refuted, "a window of no scenario: " + w.scenario);
             }
             try {
                 auto const found =
@@ -667,12 +699,18 @@ private:
              {std::pair{&c->onsets, &again.onsets}, std::pair{&c->ends, &again.ends}})
             for (auto const& t : *said) {
                 auto const at = std::ranges::find(*found, t.name, &named_estimate::name);
-                bool const there =
-                    at != found->end() && t.hull && at->hull && within_stated(*at->hull, *t.hull);
+                bool const there = at != found->end() && t.hull && at->hull &&
+                                   within_stated(*at->hull, *t.hull) && at->value == t.value &&
+                                   is_stated(t.prior, at->prior);
                 all.note(there ? outcome::verified : outcome::undecided,
                          "when it acts in " + t.name + " is not proved again");
             }
         return all.finding("hulls", "all that lies outside is excluded anew");
+    }
+    /// Whether a prior is stated as it is: a wider one would be said to be excluded.
+    [[nodiscard]] static bool is_stated(std::optional<interval> const& said,
+                                        std::optional<interval> const& is) {
+        return !said || (is && within_stated(*said, *is));
     }
     /// A hull is no more than an enclosure: only a proof that some lie outside refutes it.
     void side(named_estimate const& e, finding_of_all& all) const {
@@ -682,6 +720,8 @@ private:
         auto const at = static_cast<std::size_t>(j);
         if (at >= p.choice.unknown.size())
             return all.note(outcome::refuted, "a hull of no parameter: " + e.name);
+        if (!is_stated(e.prior, p.prior[at]))
+            return all.note(outcome::refuted, "the prior of " + e.name + " is another one");
         bool const within = at < found.size() && within_stated(found[at], *e.hull);
         all.note(within ? outcome::verified : outside(p, at, *e.hull),
                  "values of " + e.name + " beyond its hull are not excluded");
@@ -694,7 +734,10 @@ private:
             auto const at =
                 std::ranges::find(again, k.about.name, [](auto const& t) { return t.about.name; });
             bool const found = at != again.end() && k.about.hull && at->about.hull &&
-                               at->about.unit == k.about.unit &&
+                               at->about.unit == k.about.unit && at->is_sum == k.is_sum &&
+                               std::ranges::equal(at->parts, k.parts) &&
+                               at->about.value == k.about.value &&
+                               is_stated(k.about.prior, at->about.prior) &&
                                within_stated(*at->about.hull, *k.about.hull);
             all.note(found ? outcome::verified : outcome::undecided,
                      "the range of " + k.about.name + " is not proved again");
@@ -747,6 +790,9 @@ private:
         auto const& again = run.result.causes.front().holdout;
         if (!again) return {what, outcome::undecided, "not judged again"};
         finding_of_all all;
+        for (auto const& a : run.result.assumptions)
+            if (std::ranges::find(d_->assumptions, a) == d_->assumptions.end())
+                all.note(outcome::refuted, "'" + a + "' is missing");
         auto const same = [&](inflation_range const& found, inflation_range const& said,
                               char const* which) {
             all.note(compared(found, said), std::string{"the inflation "} + which);
