@@ -802,7 +802,7 @@ TEST_CASE("predict and verify answer from a stored result") {
     };
     altered("{\"S3\": 0}", "{\"S3\": 5}", "not the problem");
     altered("{\"S3\": 0}", "{\"S3\": 100000}", "nothing is known");
-    altered("\"files\"", "\"tables\"", "SHA-256");
+    altered("\"files\"", "\"tables\"", "unknown key 'tables'");
     std::ofstream(fs::path(result) / "result.json") << json_text;
     auto const moved =
         run({"verify", result, "--scenario", "S2", "--require", "u at 0 > 1", "--set", "D=0.2"});

@@ -15,7 +15,7 @@ namespace sivid {
 
 /// Whether a witness shows the upper size of disturbances: its pieces are no larger, and a run of
 /// first-order sets with them keeps all bounds.
-/// @param keep_going  asked before each experiment
+/// @param keep_going  once false, nothing is proved
 [[nodiscard]] inline check_finding
 check_disturbance_witness(identification_problem const& problem, disturbance_set const& set,
                           disturbance_bound const& found, std::function<bool()> const& keep_going) {
@@ -42,14 +42,10 @@ check_disturbance_witness(identification_problem const& problem, disturbance_set
                 sampled_signal(from, values, interpolation::hold);
         }
     }
-    bool kept = true;
-    for (std::size_t s = 0; s < posed.experiments.size() && kept; ++s) {
-        if (!keep_going()) return {"witness", outcome::undecided, "no time is left"};
-        auto one = posed;
-        one.experiments = {posed.experiments[s]};
-        approximate_fit const at{found.witness->parameters, {found.witness->starts[s]}, {}};
-        kept = io_detail::judge_point<interval>(one, at, true) == run_finding::explained;
-    }
+    approximate_fit const at{found.witness->parameters, found.witness->starts, {}};
+    bool const kept =
+        io_detail::judge_point<interval>(posed, at, true, keep_going) == run_finding::explained;
+    if (!kept && !keep_going()) return {"witness", outcome::undecided, "no time is left"};
     return {"witness", kept ? outcome::verified : outcome::undecided,
             "by first-order sets, with its disturbances"};
 }

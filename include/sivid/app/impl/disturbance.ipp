@@ -164,11 +164,15 @@ inline std::vector<std::string> disturbance_words(identification_problem const& 
     for (auto const& p : strong)
         words.push_back("the witness needs it in " + about.states[p.equation].equation_name() +
                         ": " + stretch(p) + ", " + nearest_text(p.value, 3) + " (others may not)");
-    for (std::size_t j = 0; found.witness && j < found.hull.size(); ++j)
+    for (std::size_t j = 0; found.witness && j < found.hull.size(); ++j) {
+        auto const& name = problem.choice.unknown[j];
+        auto const& unit = about.constants[index_of(about.constants, name, "constant")].unit;
         words.push_back(
-            "with disturbances up to it " + problem.choice.unknown[j] + " in " +
+            "with disturbances up to it " + name + " in " +
             report::outward_text_within(found.hull[j], problem.prior[j]) +
+            (unit == "1" ? "" : " " + unit) +
             (subset(problem.prior[j], found.hull[j]) ? " (nothing excluded)" : " (proved)"));
+    }
     return words;
 }
 

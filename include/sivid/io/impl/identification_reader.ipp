@@ -123,13 +123,16 @@ inline void read_outliers(json_value const& outliers, stored_identification& res
 
 inline void read_result(json_value const& root, stored_identification& result) {
     mapping_entries::require_format(root, "sivid-identification-1");
-    root.allow_only(
-        {"format",   "dataset",      "source",       "problem",          "time_unit",
-         "effects",  "disturbances", "verdict",      "verdict_rests_on", "stop_reason",
-         "journal",  "reach",        "search",       "enclosures",       "files",
-         "outputs",  "parameters",   "combinations", "volume",           "rows",
-         "products", "witness",      "assumptions",  "outliers",         "identifiability",
-         "boxes",    "integrations", "seconds",      "by_clock"});
+    root.allow_only({"format",       "dataset",         "source",
+                     "problem",      "time_unit",       "effects",
+                     "disturbances", "verdict",         "verdict_rests_on",
+                     "stop_reason",  "journal",         "reach",
+                     "divisors",     "search",          "enclosures",
+                     "files",        "outputs",         "parameters",
+                     "combinations", "volume",          "rows",
+                     "products",     "witness",         "assumptions",
+                     "outliers",     "identifiability", "boxes",
+                     "integrations", "seconds",         "by_clock"});
     read_subject(root, result);
     read_verdict(root, result);
     for (auto const& a : root.at("assumptions").elements())

@@ -127,7 +127,7 @@ SIVID_DECL stored_page disturbance_page(
                .caption = "With it a validated run explains the data; others may do so."};
     for (auto const& [scenario, line] : witness)
         if (all.panels.size() < 12) all.panels.push_back(draw_time_plot(line, {.title = scenario}));
-    out.section("Over time").add(all);
+    if (!all.panels.empty()) out.section("Over time").add(all);
     if (!curve.first.empty())
         out.section("Equations against channels")
             .add(figure{.panels = {detail::curve_picture(curve)},

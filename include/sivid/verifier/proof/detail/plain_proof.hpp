@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -312,15 +313,18 @@ namespace io_detail {
 
 /// What validated runs prove of the parameters that a fit ended at.
 /// @param at_its_starts  explained for the fitted starts; else refuted for all starts
+/// @param keep_going  once false, nothing is proved; may be empty
 template <class I>
 [[nodiscard]] run_finding judge_point(identification_problem const& problem,
-                                      approximate_fit const& f, bool at_its_starts) {
+                                      approximate_fit const& f, bool at_its_starts,
+                                      std::function<bool()> const& keep_going = nullptr) {
     std::vector<box> starts;
     for (std::size_t e = 0; e < f.starts.size() && at_its_starts; ++e) {
         starts.push_back(point_within(problem.experiments[e].initial, f.starts[e]));
     }
-    enclosure_options const fine{
+    enclosure_options fine{
         .order = 14, .tolerance = 1e-11, .relative_tolerance = 1e-3, .minimum_step = 1e-7};
+    fine.keep_going = keep_going;
     proved_campaign<I> campaign(problem, std::move(starts), fine);
     auto const p = point_box(f.parameters);
     return campaign.judge(campaign.learn(p), p);
