@@ -103,6 +103,40 @@ TEST_CASE("several effects keep their parameters apart, and their times") {
                            "v'~2*v^3 acts in E1 from 1.5 s on, E2 until 3 s only"});
 }
 
+TEST_CASE("a state that inputs see moves as the rates say that are set behind them") {
+    effect filter;
+    filter.name = "filter";
+    filter.parameters = {{"k", "1/s", 0_dec, 1_dec, 0_dec}};
+    filter.on_inputs = [](effect_scope& m) {
+        (void)m.add_state("filter.d", "m/s", 9, expression(0));
+    };
+    filter.on_rates = [](effect_scope& m) {
+        m.rate("filter.d") = m.rate("v") - m.state("filter.d") * m.parameter();
+    };
+    CHECK(changed({filter}) == lines{"a further state filter.d starts at 0, with filter.d' = v' - "
+                                     "k_1 * filter.d"});
+}
+
+TEST_CASE("what stands in long formulas more than once is a part with a line of its own") {
+    effect shared;
+    shared.name = "shared";
+    shared.parameters = {{"k", "1", 0_dec, 1_dec, 0_dec}};
+    shared.on_rates = [](effect_scope& m) {
+        auto const s = m.add_state("shared.s", "m", 1, std::nullopt);
+        auto term = m.parameter() * m.state("v") + s;
+        for (int n = 0; n < 5; ++n) term = sin(term) * term; // 2^5 times the first one
+        m.rate("v") += term;
+        m.rate("shared.s") = -term;
+    };
+    auto const all = changed({shared});
+    REQUIRE(all.size() == 8);
+    CHECK(all[0] == "part_1 = shared.s + v * k_1");
+    CHECK(all[1] == "part_2 = part_1 * sin(part_1)");
+    CHECK(all[5] == "part_6 = part_5 * sin(part_5)");
+    CHECK(all[6] == "a further state shared.s starts anywhere, with shared.s' = -part_6");
+    CHECK(all[7] == "v' becomes v' + part_6");
+}
+
 TEST_CASE(
     "a formula that nobody would read is not written, and an effect of another model refused") {
     effect endless;

@@ -98,7 +98,7 @@ private:
         auto const& about = base_->about;
         auto const names = names_in(seen_);
         for (auto i = base_->rate.size(); i < before_.rate.size(); ++i)
-            added_state(before_, i, names_in(before_));
+            if (!moves_later(i)) added_state(before_, i, names_in(before_));
         auto k = first_seen();
         auto const show = [&](std::string const& name, operation op, std::size_t index) {
             auto const i = seen_.rate[k++];
@@ -120,11 +120,49 @@ private:
             // A leaf is as short as its name.
             if (!is_leaf(g[old[i]].op)) names.nodes[old[i]] = rate_name(i);
         }
-        for (auto i = before_.rate.size(); i < after_.rate.size(); ++i)
-            added_state(after_, i, names);
+        std::vector<node_id> formulas;
+        auto const changes = [&](std::size_t i) {
+            return i < old.size() ? after_.rate[i] != old[i] : moves_later(i);
+        };
+        for (std::size_t i = 0; i < after_.rate.size(); ++i)
+            if (changes(i)) formulas.push_back(after_.rate[i]);
+        name_parts(formulas, names);
+        for (auto i = old.size(); i < after_.rate.size(); ++i)
+            if (changes(i)) added_state(after_, i, names);
         for (std::size_t i = 0; i < base_->rate.size(); ++i)
             if (after_.rate[i] != old[i])
                 say(rate_name(i), " becomes ", text(after_, after_.rate[i], names));
+    }
+    /// Where one of these is too long: names for what stands in them more than once, each with a
+    /// line; none where that takes more lines than anybody reads.
+    void name_parts(std::vector<node_id> const& formulas, leaf_names& names) {
+        constexpr std::size_t most = 12;
+        auto const& g = after_.g;
+        auto named = names;
+        std::vector<std::string> lines;
+        std::vector<std::size_t> uses(g.size());
+        for (auto const i : formulas) ++uses[i];
+        for (auto k = g.size(); k-- > 0;) {
+            auto const& n = g.nodes()[k];
+            if (uses[k] == 0 || is_leaf(n.op) || names.nodes.contains(static_cast<node_id>(k)))
+                continue;
+            ++uses[n.a];
+            if (is_binary(n.op)) ++uses[n.b];
+        }
+        auto const readable = [&](node_id i) { return is_short(g, i, named, most_parts); };
+        if (std::all_of(formulas.begin(), formulas.end(), readable)) return;
+        for (std::size_t k = 0; k < g.size() && lines.size() <= most; ++k) {
+            auto const i = static_cast<node_id>(k);
+            bool const once = uses[k] < 2 || named.nodes.contains(i);
+            if (once || is_short(g, i, named, 3)) continue;
+            auto const name = "part_" + std::to_string(lines.size() + 1);
+            lines.push_back(name + " = " + text(after_, i, named));
+            if (!readable(i)) return;
+            named.nodes[i] = name;
+        }
+        if (lines.size() > most || !std::all_of(formulas.begin(), formulas.end(), readable)) return;
+        names = std::move(named);
+        to_->lines.insert(to_->lines.end(), lines.begin(), lines.end());
     }
     void channels() {
         auto& g = after_.g;
@@ -145,14 +183,18 @@ private:
                                  (drift ? " * (t - begin)" : ""));
         }
     }
+    /// Whether the rate of an added state is set behind the edits of inputs.
+    [[nodiscard]] bool moves_later(std::size_t i) {
+        return i >= before_.rate.size() ||
+               copy_into(after_.g, before_.g, {before_.rate[i]}, same_leaf{})[0] != after_.rate[i];
+    }
     void added_state(recorded_model const& m, std::size_t i, leaf_names const& names) {
         auto const name = short_name(m.about.states[i].name);
-        for (auto const& a : m.added_states) {
-            if (a.state == i)
-                say("a further state " + name, " starts at ",
-                    text(m, a.at_begin, names) + ", with " + name +
-                        "' = " + text(m, m.rate[i], names));
-        }
+        auto const at = std::find_if(m.added_states.begin(), m.added_states.end(),
+                                     [i](auto const& a) { return a.state == i; });
+        say("a further state " + name, " starts ",
+            (at == m.added_states.end() ? "anywhere" : "at " + text(m, at->at_begin, names)) +
+                ", with " + name + "' = " + text(m, m.rate[i], names));
     }
     [[nodiscard]] std::size_t first_seen() const {
         return seen_.rate.size() - base_->about.inputs.size() - base_->about.constants.size() - 1;
@@ -185,7 +227,7 @@ private:
     }
     [[nodiscard]] static std::string text(recorded_model const& m, node_id i,
                                           leaf_names const& names) {
-        return readable_formula(m.g, i, names);
+        return readable_formula(m.g, i, names, most_parts);
     }
     [[nodiscard]] leaf_names names_in(recorded_model const& m) const {
         leaf_names names;
@@ -197,6 +239,8 @@ private:
         for (auto const& u : m.about.inputs) names.inputs.push_back(short_name(u.name));
         return names;
     }
+
+    static constexpr double most_parts = 100; ///< of a formula that people read
 
     recorded_model const* base_;
     changed_formulas* to_;
