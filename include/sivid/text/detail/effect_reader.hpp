@@ -149,7 +149,7 @@ private:
                          "say, not at '" +
                              n.name + "'",
                          "let it be the difference, which starts at 0: d' = w' - d/tau, and w - d "
-                         "for what lags behind w");
+                         "for what lags behind w, or write start = \"unknown\"");
         if (s != nullptr) return formula_value{scope.state(in_model(n.name)), s->in};
         return std::nullopt;
     }
