@@ -17,7 +17,7 @@ using support::mp;
 
 namespace {
 
-/// The line of piece k in 50 digits.
+/// The line of piece k in 100 digits.
 mp on_piece(sampled_signal const& s, std::size_t k, mp const& t) {
     auto const& times = s.times();
     auto const& values = s.values();

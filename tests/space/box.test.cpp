@@ -21,7 +21,7 @@ namespace {
 
 using traits = interval_traits<interval>;
 
-/// Corners are multiples of 2^-20, so that 50 digits hold a volume exactly.
+/// Corners are multiples of 2^-20, so that 100 digits hold a volume exactly.
 box random_box(draws& d, std::size_t n, double size) {
     auto const corner = [&] {
         return std::ldexp(std::round(std::ldexp(d.uniform(-size, size), 20)), -20);

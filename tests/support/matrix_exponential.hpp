@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The matrix exponential in 50 digits.
+// The matrix exponential in 100 digits.
 #ifndef SIVID_TESTS_SUPPORT_MATRIX_EXPONENTIAL_HPP
 #define SIVID_TESTS_SUPPORT_MATRIX_EXPONENTIAL_HPP
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runge-Kutta formulas in 50 digits.
+// Runge-Kutta formulas in 100 digits.
 #ifndef SIVID_TESTS_SUPPORT_RUNGE_KUTTA_HPP
 #define SIVID_TESTS_SUPPORT_RUNGE_KUTTA_HPP
 

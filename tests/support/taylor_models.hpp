@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Taylor models whose sizes are values against exact numbers: polynomials of rationals, and point
-// values of 50 digits.
+// values of 100 digits.
 #ifndef SIVID_TESTS_SUPPORT_TAYLOR_MODELS_HPP
 #define SIVID_TESTS_SUPPORT_TAYLOR_MODELS_HPP
 

@@ -29,7 +29,9 @@ struct campaign {
     json stored;
 
     explicit campaign(small_campaign::truth const& real)
-        : problem(small_campaign::problem(real)), held_out({small_campaign::experiment(2, real)}) {
+        : campaign(small_campaign::problem(real), small_campaign::experiment(2, real)) {}
+    campaign(identification_problem const& posed, experiment const& withheld)
+        : problem(posed), held_out({withheld}) {
         auto run = diagnose(problem, small_campaign::catalogue(), {});
         judge_by_holdout(run, held_out);
         stored = json::parse(diagnosis_json(run.result, "small",
@@ -246,6 +248,33 @@ TEST_CASE("relations and places that are forged are not proved") {
             d["where"][k]["estimate"] = middle;
         }) != outcome::verified);
     }
+}
+
+TEST_CASE("when an effect begins is proved again, as it is stated alone") {
+    auto const pushed_from = [](double begin) {
+        small_campaign::truth real;
+        real.missing = [begin](double t, double, double) { return t < begin ? 0 : -0.6; };
+        return real;
+    };
+    auto posed = small_campaign::problem();
+    posed.experiments = {small_campaign::experiment(0, pushed_from(1.5)),
+                         small_campaign::experiment(1, pushed_from(2.2))};
+    campaign const c(posed, small_campaign::experiment(2, pushed_from(1)));
+    auto const answer = cause_with(c.stored, "explains");
+    REQUIRE(answer < c.stored["causes"].size());
+    REQUIRE(c.stored["causes"][answer]["onsets"].size() == 2);
+    CHECK(overall(c.check(c.stored)) == outcome::verified);
+    auto const onset = [&](char const* key, json const& is) {
+        return c.forged([&](json& d) { d["causes"][answer]["onsets"].begin().value()[key] = is; });
+    };
+    CHECK(onset("value", 1.45) != outcome::verified);
+    CHECK(onset("hull", {1.49, 1.51}) != outcome::verified);
+    CHECK(onset("prior", {0, 9}) != outcome::verified);
+    CHECK(onset("hull", nullptr) != outcome::refuted);
+    CHECK(c.forged([&](json& d) {
+        auto& all = d["causes"][answer]["onsets"];
+        all["E9"] = all.begin().value();
+    }) != outcome::verified);
 }
 
 TEST_CASE("held-out figures that are forged are not proved") {

@@ -7,9 +7,10 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <ctime>
 #include <functional>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -87,10 +88,10 @@ public:
 
 private:
     void print(std::string const& text, char const* before, char const* behind) const {
-        char time[32];
-        std::snprintf(time, sizeof time, "%7.1f s  ", elapsed());
-        if (host_ != nullptr) return host_->progress(time + text);
-        notice_stream() << (std::string{before} + time).append(text).append(behind) << std::flush;
+        std::ostringstream line;
+        line << std::fixed << std::setprecision(1) << std::setw(7) << elapsed() << " s  " << text;
+        if (host_ != nullptr) return host_->progress(line.str());
+        notice_stream() << before + line.str() + behind << std::flush;
     }
 
     using clock = std::chrono::steady_clock;
@@ -102,11 +103,11 @@ private:
 /// One line about the state of a paving.
 template <class PavingProgress>
 std::string paving_words(PavingProgress const& p) {
-    char text[128];
-    std::snprintf(text, sizeof text,
-                  "%8zu boxes  %6zu waiting  inside %9.3g %%  not excluded %9.3g %% of the prior",
-                  p.tested, p.pending, 100 * p.inner, 100 * p.outer);
-    return text;
+    std::ostringstream line;
+    line << std::setprecision(3) << std::setw(8) << p.tested << " boxes  " << std::setw(6)
+         << p.pending << " waiting  inside " << std::setw(9) << 100 * p.inner << " %  not excluded "
+         << std::setw(9) << 100 * p.outer << " % of the prior";
+    return line.str();
 }
 
 /// Today, as 2024-11-20.

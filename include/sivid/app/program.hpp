@@ -9,7 +9,6 @@
 #include <sivid/io/text/text_file.hpp>
 
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -123,13 +122,6 @@ inline void prepare_folder(std::filesystem::path const& folder) {
     if (fault || !std::filesystem::is_directory(folder))
         throw output_error("the folder " + name + " cannot be created" +
                            (fault ? ": " + fault.message() : std::string{}));
-}
-
-/// A number in a sentence, in the form that printf knows.
-inline std::string text_of(char const* format, double value) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, value);
-    return buffer;
 }
 
 } // namespace sivid::app

@@ -87,7 +87,10 @@ public:
         /// The flow while it does, made when it is asked for first, by any thread: its outputs are
         /// conditions (`resting_models`).
         [[nodiscard]] flow const& equations() const {
-            std::call_once(equations_->once, [this] { equations_->made = equations_->make(); });
+            std::call_once(equations_->once, [this] {
+                equations_->made = equations_->make();
+                equations_->make = nullptr; // with the inputs it holds
+            });
             return *equations_->made;
         }
 

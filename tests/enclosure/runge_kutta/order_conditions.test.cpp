@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The order conditions of all rooted trees: in interval arithmetic, tightly, and in 50 digits by an
+// The order conditions of all rooted trees: in interval arithmetic, tightly, and in 100 digits by an
 // evaluation of its own; one order more must fail.
 
 #include "support/catch.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Taylor coefficients of solutions and of their derivatives by initial state and parameters, order
-// by order, against power series in 50 digits; derivatives by central differences of those.
+// by order, against power series in 100 digits; derivatives by central differences of those.
 #include <sivid/enclosure/series/expansion.hpp>
 
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The carried set under random affine maps: members stay members, in 50 digits.
+// The carried set under random affine maps: members stay members, in 100 digits.
 #include <sivid/enclosure/set/doubleton.hpp>
 
 #include "support/catch.hpp"

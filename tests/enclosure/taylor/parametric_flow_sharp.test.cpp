@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points whose centre is kept in twice the digits, against trajectories of 50 digits.
+// Points whose centre is kept in twice the digits, against trajectories of 100 digits.
 #include "support/catch.hpp"
 #include "support/models.hpp"
 #include "support/power_series.hpp"
@@ -155,7 +155,7 @@ TEST_CASE("sharp centres: elementary functions of doubles") {
     });
 }
 
-TEST_CASE("sharp centres: Lorenz's equations against 50 digits") {
+TEST_CASE("sharp centres: Lorenz's equations against 100 digits") {
     auto const f =
         flow_of(model_of({3, 0, 0, 100}, [](auto const&, auto const& s, auto const&, auto const&) {
             return vector<std::decay_t<decltype(s)>>(

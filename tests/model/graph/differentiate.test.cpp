@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Derivatives against difference quotients in 50 digits, at points and over boxes.
+// Derivatives against difference quotients in 100 digits, at points and over boxes.
 #include <sivid/model/graph/differentiate.hpp>
 
 #include "support/catch.hpp"
@@ -20,7 +20,7 @@ std::vector<node_id> leaves(graph& g) {
     return {g.leaf(operation::state, 0), g.leaf(operation::state, 1),
             g.leaf(operation::constant, 0), g.leaf(operation::constant, 1)};
 }
-/// The formula with one variable at a 50-digit value. @throws not_defined, too_large
+/// The formula with one variable at a 100-digit value. @throws not_defined, too_large
 mp at(support::formula const& f, place const& where, std::size_t variable, mp const& v) {
     return support::values<mp>(
                f,

@@ -54,7 +54,7 @@ struct inputs {
     }
 };
 
-/// The series of a formula by the library and, at members of its arguments, by 50 digits.
+/// The series of a formula by the library and, at members of its arguments, by 100 digits.
 int check_formula(draws& d, double spread) {
     auto const f = support::random_formula(d, 1 + d.below(8), true);
     graph g;

@@ -136,7 +136,7 @@ TEST_CASE("Taylor coefficients of elementary functions enclose the derivatives")
                     auto const exact = exact_coefficients(f, mp(d.in(x)));
                     for (std::size_t k = 0; k <= order; ++k) {
                         CAPTURE(k);
-                        // 50 digits, of which cancellation may take some: far below a double's ulp
+                        // 100 digits, of which cancellation may take some: far below a double's ulp
                         REQUIRE(support::encloses(y[k], exact[k], 1e-35));
                     }
                 }

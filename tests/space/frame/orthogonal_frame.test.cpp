@@ -18,7 +18,7 @@ using support::mp;
 
 namespace {
 
-/// The inverse in 50 digits, by Gauss-Jordan elimination with pivoting.
+/// The inverse in 100 digits, by Gauss-Jordan elimination with pivoting.
 std::vector<std::vector<mp>> exact_inverse(Eigen::MatrixXd const& q) {
     auto const n = static_cast<std::size_t>(q.rows());
     std::vector<std::vector<mp>> a(n, std::vector<mp>(2 * n, 0));

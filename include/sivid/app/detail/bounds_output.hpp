@@ -6,6 +6,7 @@
 #include <sivid/io/identification_csv.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/decimal_output.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/paving/bound_influence.hpp>
 #include <sivid/report/number_text.hpp>
 
@@ -46,8 +47,8 @@ inline std::string bounds_words(identification_problem const& problem, bound_inf
     if (is_empty(line.hull)) return "no parameter explains the data";
     std::string text;
     for (std::size_t j = 0; j < line.hull.size() && !is_empty(stated); ++j)
-        text += (j == 0 ? "" : ", ") + problem.choice.unknown[j] +
-                text_of(" %.3g", width(line.hull[j]) / width(stated[j]));
+        text += (j == 0 ? "" : ", ") + problem.choice.unknown[j] + " " +
+                nearest_text(width(line.hull[j]) / width(stated[j]), 3);
     if (is_empty(stated))
         text = line.found == verdict::consistent ? "some parameter explains the data" : "undecided";
     return text + (line.ended         ? ""

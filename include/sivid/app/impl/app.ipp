@@ -12,6 +12,7 @@
 #include <sivid/app/program.hpp>
 #include <sivid/app/ranks.hpp>
 #include <sivid/number/text/joined.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -896,7 +897,7 @@ private:
         auto& c = fleet_;
         c.words = {fleet_of_};
         if (!of_.file.empty()) c.words.push_back(of_.file);
-        if (fleet_budget_) c.options = {"--budget", text_of("%.17g", *fleet_budget_)};
+        if (fleet_budget_) c.options = {"--budget", nearest_text(*fleet_budget_)};
         std::istringstream words(fleet_options_);
         for (std::string word; words >> word;) c.options.push_back(word);
         if (fleet_of_ == "diagnose" && fleet_options_.find("--threads") == std::string::npos)

@@ -18,6 +18,7 @@
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/io/text/json_writer.hpp>
 #include <sivid/io/text/printable_text.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/number/text/sha256.hpp>
 #include <sivid/work_limit.hpp>
 
@@ -163,7 +164,7 @@ public:
         json.begin_object().members("format", format, "of", of, "code", code, "seconds", took);
         json.end_object();
         write_durably(note_file(), json.text());
-        return "ended with " + std::to_string(code) + " after " + text_of("%.3g s", took);
+        return "ended with " + std::to_string(code) + " after " + nearest_text(took, 3) + " s";
     }
 
 private:
@@ -321,7 +322,7 @@ inline int write_fleet_summary(std::vector<fleet_task> const& list,
         bool const ran = r.state != "missing";
         csv += in_csv(r.name) + "," + r.state + "," + in_csv(r.found) + "," + r.about + "," +
                r.low + "," + r.high + "," + (ran ? std::to_string(r.note.code) : "") + "," +
-               (ran ? text_of("%.3f", r.note.seconds) : "") + "\n";
+               (ran ? nearest_text(r.note.seconds, 6) : "") + "\n";
         json.begin_object(json_writer::layout::one_line);
         json.members("dataset", r.name, "state", r.state, "found", r.found);
         if (ran) json.members("exit_code", r.note.code, "seconds", r.note.seconds);
@@ -351,7 +352,7 @@ inline int write_fleet_summary(std::vector<fleet_task> const& list,
     for (auto const& [what, count] : counts)
         result_stream() << "; " << count << " " << printable_text(what, 200);
     result_stream() << "\n"
-                    << text_of("%.3g", seconds)
+                    << nearest_text(seconds, 3)
                     << " s of the programs; written: " << (out / "fleet.csv").string()
                     << " and fleet.json\n";
     return code;

@@ -17,6 +17,7 @@
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
 #include <sivid/io/result/problem_digest.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 #include <sivid/paving/bound_influence.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/online_identification.hpp>
@@ -118,12 +119,12 @@ inline identification identified(identify_command const& c, identification_probl
     if (several(c)) {
         cluster::traffic spent;
         auto found = cluster::identify(c.job->others(), problem, options, digest, &spent);
-        shared = "  " + std::to_string(c.job->size()) +
-                 " ranks: " + std::to_string(spent.requests) + " requests, " +
-                 std::to_string(spent.messages) + " messages, " +
-                 text_of("%.3g MB, ",
-                         1e-6 * static_cast<double>(spent.bytes_sent + spent.bytes_received)) +
-                 text_of("%.3g s of work ", spent.worked) + text_of("in %.3g s\n", spent.asking);
+        shared =
+            "  " + std::to_string(c.job->size()) + " ranks: " + std::to_string(spent.requests) +
+            " requests, " + std::to_string(spent.messages) + " messages, " +
+            nearest_text(1e-6 * static_cast<double>(spent.bytes_sent + spent.bytes_received), 3) +
+            " MB, " + nearest_text(spent.worked, 3) + " s of work in " +
+            nearest_text(spent.asking, 3) + " s\n";
         return found;
     }
 #endif

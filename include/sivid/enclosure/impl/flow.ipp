@@ -27,10 +27,13 @@ SIVID_DECL flow::flow(recorded_model const& model, parameter_choice const& choic
     find_structure();
     constexpr std::size_t most = 2; // that stick at once: each pair is a flow of its own
     if (uncertain() || sticking == most) return;
-    for (auto& r : resting_models(model, sticking)) {
+    auto models = resting_models(model, sticking);
+    if (models.empty()) return;
+    auto const shared = std::make_shared<std::vector<signal> const>(inputs); // long, in all of them
+    for (auto& r : models) {
         at_rest_.emplace_back(r.state, [=, own = std::move(r.model)] {
             return std::unique_ptr<flow const>(
-                new flow(own, choice, inputs, std::nullopt, sticking + 1));
+                new flow(own, choice, *shared, std::nullopt, sticking + 1));
         });
     }
 }

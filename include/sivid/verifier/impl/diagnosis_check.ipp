@@ -311,8 +311,8 @@ public:
         all_.push_back(
             {"estimates", outcome::nothing,
              "fits, places that are not proved, laws, regimes, scores, what was tried, what cannot "
-             "be "
-             "observed, ends of priors, where a witness needs most, the next experiment, words"});
+             "be observed, ends of priors, where a witness needs most, the next experiment, "
+             "words"});
         if (tell) tell(all_.back());
         return all_;
     }
@@ -364,8 +364,7 @@ private:
         for (auto const& c : d_->causes)
             if (!c.excluded_by.empty() && c.verdict != cause_verdict::excluded)
                 all.note(outcome::refuted, "a relation excludes what is not excluded");
-        all.note(same_change() ? outcome::verified : outcome::refuted,
-                 "the formulas are not those of the answer");
+        same_change(all);
         if (d_->remainder) {
             auto const& rest = *d_->remainder;
             auto const of = std::ranges::find(d_->causes, rest.effects, &cause::effects);
@@ -394,15 +393,18 @@ private:
         return all.finding(what, "none contradicts another");
     }
     /// Whether what a simulator is told is what the answer changes.
-    [[nodiscard]] bool same_change() const {
+    void same_change(finding_of_all& all) const {
         changed_formulas again;
         std::vector<effect> named;
         std::string why;
         if (d_->answer == answer_kind::effects) {
-            if (!with_effects(*base_, *catalogue_, d_->effects, named, why)) return false;
+            if (!with_effects(*base_, *catalogue_, d_->effects, named, why))
+                return all.note(outcome::undecided, "the answer cannot be built again: " + why);
             again = formulas_of(base_->model, named);
         }
-        return d_->change.lines == again.lines && d_->change.symbols == again.symbols;
+        bool const same = d_->change.lines == again.lines && d_->change.symbols == again.symbols;
+        all.note(same ? outcome::verified : outcome::refuted,
+                 "the formulas are not those of the answer");
     }
 
     /// What disturbances of single equations are needed: bounded anew, with as much work.

@@ -24,7 +24,7 @@ struct problem {
     double h = 1;
 };
 
-/// D(h) in 50 digits, by one exponential in the variables (D, s/h, 1).
+/// D(h) in 100 digits, by one exponential in the variables (D, s/h, 1).
 std::vector<mp> exact(problem const& p) {
     auto const n = static_cast<Eigen::Index>(p.n);
     // Time runs in units of h, a power of two: the products are exact.
@@ -86,7 +86,7 @@ TEST_CASE("x' = -x + w: at most 1 - exp(-h), however long the step") {
     }
 }
 
-TEST_CASE("bounds of random problems against 50 digits") {
+TEST_CASE("bounds of random problems against 100 digits") {
     draws d(7);
     for (int round = 0; round < 400; ++round) {
         auto const p = draw(d, round % 4 == 0 ? 200 : 4);

@@ -14,7 +14,7 @@ using support::encloses;
 using support::exact_exponential;
 using support::mp;
 
-TEST_CASE("random matrices of all norms against 50 digits") {
+TEST_CASE("random matrices of all norms against 100 digits") {
     draws d(631);
     for (int round = 0; round < 60; ++round) {
         auto const n = static_cast<Eigen::Index>(1 + d.below(5));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What series leave out, at orders so low that it is most of the value: each operation and random
-// formulas on states that use their own tails to the ends, in 50 digits.
+// formulas on states that use their own tails to the ends, in 100 digits.
 #include <sivid/model/series/detail/series_tail.hpp>
 
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recurrences in twice the digits against power series of 50 digits that are computed otherwise.
+// Recurrences in twice the digits against power series of 100 digits that are computed otherwise.
 #include "support/catch.hpp"
 #include "support/formulas.hpp"
 
