@@ -97,7 +97,7 @@ endif()
 if(TARGET sivid::report)
     find_package(CLI11 QUIET)
     if(CLI11_FOUND)
-        # Of cluster those headers that need no MPI: threads of a fleet share its work by them.
+        # Of cluster those headers that need no MPI: what a program sees of ranks, and the threads of a fleet.
         sivid_add_library(app_headers FOLDERS app cluster LINK sivid_report sivid_verifier sivid_importing CLI11::CLI11)
     else()
         message(STATUS "sivid: CLI11 not found, sivid::app left out")

@@ -52,7 +52,7 @@ function(sivid_add_library_of target)
     target_link_libraries(${target} PRIVATE Threads::Threads ${sivid_library_needs})
 endfunction()
 
-# sivid_compile_again(<part> <name> <option>...): the objects of a part anew, as target <part>_<name>, without MPI.
+# sivid_compile_again(<part> <name> <option>...): the objects of a part anew, as target <part>_<name>.
 function(sivid_compile_again part name)
     foreach(property IN ITEMS SOURCES LINK_LIBRARIES COMPILE_DEFINITIONS INCLUDE_DIRECTORIES)
         get_target_property(${property} ${part} ${property})
@@ -60,7 +60,6 @@ function(sivid_compile_again part name)
             set(${property} "")
         endif()
     endforeach()
-    list(REMOVE_ITEM LINK_LIBRARIES sivid::cluster)
     add_library(${part}_${name} OBJECT EXCLUDE_FROM_ALL ${SOURCES})
     target_link_libraries(${part}_${name} PRIVATE ${LINK_LIBRARIES})
     target_compile_definitions(${part}_${name} PRIVATE ${COMPILE_DEFINITIONS})
@@ -70,18 +69,11 @@ function(sivid_compile_again part name)
 endfunction()
 
 set(objects "")
-set(own_parts "")
 # GCC makes what inline functions keep one for a whole program: in the static library it would stand twice.
 set(sivid_own_statics $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
 foreach(part IN LISTS sivid_library_parts)
     target_compile_options(${part} PRIVATE ${sivid_own_statics})
-    get_target_property(libraries ${part} LINK_LIBRARIES)
-    if("sivid::cluster" IN_LIST libraries)
-        sivid_compile_again(${part} alone)
-        set(part ${part}_alone)
-    endif()
     list(APPEND objects "$<TARGET_OBJECTS:${part}>")
-    list(APPEND own_parts ${part})
 endforeach()
 sivid_add_library_of(sivid_library ${objects})
 
@@ -92,7 +84,7 @@ set(object "${CMAKE_CURRENT_BINARY_DIR}/sivid_library/sivid${CMAKE_CXX_OUTPUT_EX
 add_custom_command(OUTPUT "${object}"
     COMMAND "${SIVID_LD}" -r --force-group-allocation -o "${object}" ${objects}
     COMMAND "${CMAKE_OBJCOPY}" --localize-hidden "${object}"
-    DEPENDS ${own_parts} ${objects} COMMAND_EXPAND_LISTS VERBATIM)
+    DEPENDS ${sivid_library_parts} ${objects} COMMAND_EXPAND_LISTS VERBATIM)
 set_source_files_properties("${object}" PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 add_library(sivid_library_static STATIC "${object}")
 set_target_properties(sivid_library_static PROPERTIES OUTPUT_NAME sivid LINKER_LANGUAGE CXX)

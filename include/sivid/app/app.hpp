@@ -5,12 +5,24 @@
 #include <sivid/app/console.hpp>
 #include <sivid/app/outputs.hpp>
 #include <sivid/app/robot.hpp>
+#include <sivid/cluster/job_start.hpp>
 #include <sivid/compiled.hpp>
+#if defined(SIVID_HAS_MPI) && !defined(SIVID_LIBRARY) // libsivid has no MPI
+#define SIVID_APP_BY_MPI
+#include <sivid/cluster/mpi_job.hpp>
+#endif
 
 #include <string>
 #include <vector>
 
 namespace sivid::app {
+
+/// How the processes of a program find each other: by MPI where it is linked to.
+#ifdef SIVID_APP_BY_MPI
+constexpr cluster::job_start job_of_program = cluster::mpi_job;
+#else
+constexpr cluster::job_start job_of_program = nullptr;
+#endif
 
 /// The whole program of a robot, `main` but for its name: `PROGRAM COMMAND ...`, with the commands
 /// import, simulate, generate, identify, online, confidence, check, certificate, diagnose, predict,
@@ -19,8 +31,10 @@ namespace sivid::app {
 ///   The first Ctrl-C ends the work, and what is proved by then is written; a second one ends the
 /// program. Files are written whole or not at all.
 /// @param to  where it prints: the standard streams, in a program of its own
+/// @param start  finds the others that mpirun has started with it
 /// @returns  the exit code (`exit_code` in `program.hpp`); it does not throw
-[[nodiscard]] SIVID_DECL int run(robot const& r, int argc, char** argv, outputs const& to);
+[[nodiscard]] SIVID_DECL int run(robot const& r, int argc, char** argv, outputs const& to,
+                                 cluster::job_start start = job_of_program);
 
 /// What a command within another program leaves beside its files.
 struct command_answer {

@@ -4,10 +4,8 @@
 
 #include <sivid/app/console.hpp>
 #include <sivid/app/program.hpp>
-
-#ifdef SIVID_HAS_MPI
-#include <sivid/cluster/mpi_world.hpp>
-#endif
+#include <sivid/cluster/job.hpp>
+#include <sivid/cluster/job_start.hpp>
 
 #include <chrono>
 #include <csignal>
@@ -27,14 +25,11 @@ public:
     ranks() = default; ///< one, whoever has started it
 
     /// @throws std::invalid_argument  for a program without MPI that is started as one of several
-    ranks(int& argc, char**& argv) {
-#ifdef SIVID_HAS_MPI
-        if (cluster::mpi_world::started()) {
-            world_ = std::make_unique<cluster::mpi_world>(argc, argv);
+    ranks(cluster::job_start start, int& argc, char**& argv) {
+        if (start != nullptr) {
+            job_ = start(argc, argv);
+            return;
         }
-#else
-        static_cast<void>(argc);
-        static_cast<void>(argv);
         auto const* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
         if (size != nullptr && std::string{size} != "1")
             throw std::invalid_argument(
@@ -42,19 +37,11 @@ public:
                 std::string{size} +
                 " times; install it (Debian: libboost-mpi-dev openmpi-bin libopenmpi-dev), "
                 "configure and build anew, or start it without mpirun");
-#endif
     }
-#ifdef SIVID_HAS_MPI
-    [[nodiscard]] std::size_t size() const { return world_ ? world_->size() : 1; }
-    [[nodiscard]] std::size_t rank() const { return world_ ? world_->rank() : 0; }
-    /// Of the others, or for them rank 0. @given  there are several
-    [[nodiscard]] cluster::transport& others() const { return world_->others(); }
-    [[noreturn]] static void end_all(int code) { cluster::mpi_world::end_all(code); }
-#else
-    [[nodiscard]] static std::size_t size() { return 1; }
-    [[nodiscard]] static std::size_t rank() { return 0; }
-    static void end_all(int /*code*/) {} // there are no others
-#endif
+    [[nodiscard]] std::size_t size() const { return job_ ? job_->size() : 1; }
+    [[nodiscard]] std::size_t rank() const { return job_ ? job_->rank() : 0; }
+    /// All of them. @given  there are several
+    [[nodiscard]] cluster::job& all() const { return *job_; }
     [[nodiscard]] bool several() const { return size() > 1; }
     /// Whether this one helps rank 0.
     [[nodiscard]] bool helps() const { return rank() > 0; }
@@ -70,38 +57,37 @@ public:
     }
 
 private:
-#ifdef SIVID_HAS_MPI
-    std::unique_ptr<cluster::mpi_world> world_;
-#endif
+    std::unique_ptr<cluster::job> job_;
 };
 
 /// `guarded` for a program of several ranks: an error of one ends all. All ranks read the same
 /// command and the same data, so most errors are everybody's; rank 0 tells them.
 template <class Program>
-int guarded_on_ranks(std::string const& name, int& argc, char**& argv, outputs const& to,
-                     Program const& program) {
-    std::optional<ranks> all;
+int guarded_on_ranks(std::string const& name, cluster::job_start start, int& argc, char**& argv,
+                     outputs const& to, Program const& program) {
+    std::optional<ranks> here;
     int code = guarded(name, to, [&] {
-        all.emplace(argc, argv);
+        here.emplace(start, argc, argv);
         return 0;
     });
-    if (!all) return code;
+    if (!here) return code;
     std::ostringstream unheard, kept;
-    code = guarded(name, all->helps() ? outputs{unheard, kept} : to, [&] { return program(*all); });
+    code =
+        guarded(name, here->helps() ? outputs{unheard, kept} : to, [&] { return program(*here); });
     bool const failed = code == bad_input || code == internal_error;
-    if (failed && all->several()) {
-        if (all->helps()) { // unless rank 0 has ended the job by then, it is this one's alone
+    if (failed && here->several()) {
+        if (here->helps()) { // unless rank 0 has ended the job by then, it is this one's alone
             std::this_thread::sleep_for(std::chrono::seconds(2));
             // At once, lest what others write come in between.
-            auto const words = "rank " + std::to_string(all->rank()) + ": " + kept.str();
+            auto const words = "rank " + std::to_string(here->rank()) + ": " + kept.str();
             to.notices << words << std::flush;
         }
         to.results << std::flush;
-        ranks::end_all(code);
+        here->all().end_all(code);
     }
-    if (code != done && all->several() && !all->helps()) {
+    if (code != done && here->several() && !here->helps()) {
         // mpirun takes such a code for a failure, and waits for those who have not left by then.
-        all.reset();
+        here.reset();
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
     return code;

@@ -972,9 +972,10 @@ SIVID_DECL command_answer run_within(host const& h, robot const& r,
     return {code, results.str(), notices.str()};
 }
 
-SIVID_DECL int run(robot const& r, int argc, char** argv, outputs const& to) {
+SIVID_DECL int run(robot const& r, int argc, char** argv, outputs const& to,
+                   cluster::job_start start) {
     auto const line = detail::line_of(r, argc, argv);
-    return guarded_on_ranks(r.name, argc, argv, to, [&](ranks const& all) {
+    return guarded_on_ranks(r.name, start, argc, argv, to, [&](ranks const& all) {
         return detail::program(r, line, all)(argc, argv);
     });
 }

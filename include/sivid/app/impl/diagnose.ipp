@@ -10,9 +10,6 @@
 #include <sivid/app/detail/posed_problem.hpp>
 #include <sivid/app/program.hpp>
 #include <sivid/app/ranks.hpp>
-#ifdef SIVID_HAS_MPI
-#include <sivid/cluster/diagnose.hpp>
-#endif
 #include <sivid/diagnosis/diagnose.hpp>
 #include <sivid/io/diagnosis_json.hpp>
 #include <sivid/io/file_set.hpp>
@@ -337,16 +334,9 @@ private:
 
     /// By all ranks; nothing on those that help.
     [[nodiscard]] std::optional<diagnosis_run> diagnosed() const {
-#ifdef SIVID_HAS_MPI
-        if (command_.job != nullptr && command_.job->several()) {
-            auto const digest = dataset_digest(command_.dataset);
-            auto& others = command_.job->others();
-            if (!command_.job->helps())
-                return cluster::diagnose(others, problem_, effects_, options_, digest);
-            cluster::help_diagnose(others, problem_, effects_, digest);
-            return std::nullopt;
-        }
-#endif
+        if (command_.job != nullptr && command_.job->several())
+            return command_.job->all().diagnose(problem_, effects_, options_,
+                                                dataset_digest(command_.dataset));
         return diagnose(problem_, effects_, options_);
     }
 

@@ -401,26 +401,22 @@ inline std::vector<std::size_t> open_tasks(std::vector<fleet_task> const& list,
 
 SIVID_DECL int run_fleet(fleet_command const& c) {
     auto const list = detail::fleet_tasks(c.folders, c.out, c.words, c.options);
-    [[maybe_unused]] bool const several = c.job != nullptr && c.job->several(); // ranks
+    bool const several = c.job != nullptr && c.job->several(); // ranks
     if (c.job != nullptr) c.job->watch_interrupts();
     auto const digest = detail::digest_of(list);
     auto const who = cluster::identity_of_program();
-#ifdef SIVID_HAS_MPI
     if (several && c.job->helps()) {
-        detail::work_on(list, digest, c.job->others(), who);
+        detail::work_on(list, digest, c.job->all().others(), who);
         return done;
     }
-#endif
     prepare_folder(c.out);
     progress_line progress(c.quiet);
     auto const open = detail::open_tasks(list, c, progress);
     // Threads of this process that start one process each, and the other ranks.
     cluster::memory_transport inside(c.jobs);
     cluster::transport* others = inside.of_first.get();
-#ifdef SIVID_HAS_MPI
     std::optional<cluster::joined_transport> joined;
-    if (several) others = &joined.emplace(*inside.of_first, c.job->others());
-#endif
+    if (several) others = &joined.emplace(*inside.of_first, c.job->all().others());
     cluster::worker_pool helpers(*others, who);
     std::vector<std::thread> threads;
     auto const end_all = [&] {

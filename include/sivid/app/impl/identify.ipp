@@ -10,9 +10,6 @@
 #include <sivid/app/detail/posed_problem.hpp>
 #include <sivid/app/program.hpp>
 #include <sivid/app/ranks.hpp>
-#ifdef SIVID_HAS_MPI
-#include <sivid/cluster/identify.hpp>
-#endif
 #include <sivid/diagnosis/identify_remembering.hpp>
 #include <sivid/io/checkpoint.hpp>
 #include <sivid/io/checkpoint_reader.hpp>
@@ -110,36 +107,20 @@ inline identification nothing_known(identification_problem const& problem) {
 inline bool several(command const& c) { return c.job != nullptr && c.job->several(); }
 inline bool helps(command const& c) { return c.job != nullptr && c.job->helps(); }
 
-/// By all ranks. @param shared  receives what sharing took, for people
-inline identification identified(identify_command const& c, identification_problem const& problem,
-                                 identify_options const& options,
-                                 [[maybe_unused]] std::string const& digest,
-                                 [[maybe_unused]] std::string& shared) {
-#ifdef SIVID_HAS_MPI
-    if (several(c)) {
-        cluster::traffic spent;
-        auto found = cluster::identify(c.job->others(), problem, options, digest, &spent);
-        shared =
-            "  " + std::to_string(c.job->size()) + " ranks: " + std::to_string(spent.requests) +
-            " requests, " + std::to_string(spent.messages) + " messages, " +
-            nearest_text(1e-6 * static_cast<double>(spent.bytes_sent + spent.bytes_received), 3) +
-            " MB, " + nearest_text(spent.worked, 3) + " s of work in " +
-            nearest_text(spent.asking, 3) + " s\n";
-        return found;
-    }
-#endif
-    static_cast<void>(c);
-    return identify(problem, options);
-}
-/// What a rank that helps does.
-inline int help([[maybe_unused]] identify_command const& c,
-                [[maybe_unused]] identification_problem const& problem,
-                [[maybe_unused]] identify_options const& options,
-                [[maybe_unused]] std::string const& digest) {
-#ifdef SIVID_HAS_MPI
-    cluster::help_identify(c.job->others(), problem, options, digest);
-#endif
-    return done;
+/// By all ranks; nothing on those that help. @param shared  what sharing took, for people
+inline std::optional<identification> identified(identify_command const& c,
+                                                identification_problem const& problem,
+                                                identify_options const& options,
+                                                std::string const& digest, std::string& shared) {
+    if (!several(c)) return identify(problem, options);
+    cluster::traffic spent;
+    auto found = c.job->all().identify(problem, options, digest, spent);
+    shared = "  " + std::to_string(c.job->size()) + " ranks: " + std::to_string(spent.requests) +
+             " requests, " + std::to_string(spent.messages) + " messages, " +
+             nearest_text(1e-6 * static_cast<double>(spent.bytes_sent + spent.bytes_received), 3) +
+             " MB, " + nearest_text(spent.worked, 3) + " s of work in " +
+             nearest_text(spent.asking, 3) + " s\n";
+    return found;
 }
 
 /// Whether something is asked for that needs a search of boxes.
@@ -193,14 +174,17 @@ public:
         set_options();
         count_outliers();
         options_.search.batches = command_.batches; // whatever the threads: one result
-        if (helps(command_)) return help(command_, task_.problem, options_, task_.digest);
+        std::string shared;                         // how the ranks shared the work
+        if (helps(command_)) {
+            (void)identified(command_, task_.problem, options_, task_.digest, shared);
+            return done;
+        }
         options_.search.workers = threads_for(command_.threads);
         checkpoint_file checkpoint(command_,
                                    command_.checkpoint || command_.resume
                                        ? problem_digest(task_.problem, options_, task_.digest)
                                        : std::string{});
         use(checkpoint);
-        std::string shared; // how the ranks shared the work
         auto const found = search(shared);
         identification_output output(task_, found, limit_);
         output.title_of_command = words_of(command_.algorithm);
@@ -273,7 +257,7 @@ private:
         auto found = remembering_ ? remembered(*remembering_, options_)
                      : fewest_ && !fewest_->witness
                          ? nothing_known(task_.problem)
-                         : identified(command_, task_.problem, options_, task_.digest, shared);
+                         : *identified(command_, task_.problem, options_, task_.digest, shared);
         progress_.finish();
         name_reason(found);
         if (!fewest_) return found;
