@@ -43,11 +43,18 @@ struct bound_source {
     input_place place;
 };
 
-/// How an input or a channel of the model follows from a column.
+/// A column and what its readings are multiplied by.
+struct column_share {
+    column_reference column;
+    exact_decimal factor = *exact_decimal::parse("1");
+};
+
+/// How an input or a channel of the model follows from columns.
 struct quantity_mapping {
     std::string name, unit;
-    column_reference column;
+    std::vector<column_share> columns = {{}}; ///< the reading is their sum
     unit_conversion conversion;
+    std::optional<unsigned> signed_bits;  ///< the readings are registers whose last bit is a sign
     std::optional<unsigned> counter_bits; ///< the readings are counts that wrap
     /// The readings are what is left modulo something in this interval.
     std::optional<std::pair<exact_decimal, exact_decimal>> period;
@@ -61,6 +68,7 @@ struct quantity_mapping {
     exact_decimal clock, slope;
     bool curved = false;
     exact_decimal model_error; ///< channels only: joins the bound of all readings, not of starts
+    std::size_t file = 0;      ///< of the scenario: 0 the first one, k the k-th further one
     input_place place;
 };
 
@@ -152,10 +160,18 @@ struct mapped_start {
     input_place place;
 };
 
-/// Stretches that a record is cut into, each with a start of its own: window k, from 1, begins at
-/// first + (k - 1) every, or at the first common reading after that if its start needs one.
+/// Rows whose reading of a column is in a range.
+struct row_condition {
+    column_reference column;
+    std::pair<exact_decimal, exact_decimal> within;
+};
+
+/// Windows that a record is cut into, each with a start of its own: the k-th, from 1, of a stretch
+/// of rows begins first + (k - 1) every behind its first row (or behind t = 0), or at the first
+/// common reading after that if its start needs one.
 struct window_mapping {
     exact_decimal length, every, first; ///< [s], every >= length
+    std::optional<row_condition> rows;  ///< of such rows is a stretch; nothing: of all
     std::size_t most = 0;               ///< so many; 0: as many as there are
     std::size_t holdout_every = 0;      ///< each k-th is held out; 0: none
     std::vector<std::size_t> holdout;   ///< or these
@@ -168,7 +184,20 @@ struct window_mapping {
     }
 };
 
-/// How one recorded file becomes a scenario.
+/// The clock of a further file. Its time t is t + offset + drift (t - m) by the clock of the first
+/// one, m being the middle of what the further file holds.
+struct clock_mapping {
+    std::pair<exact_decimal, exact_decimal> offset, drift; ///< lowest and highest; [s], 1
+    /// What both files recorded, within the sum of their errors: `here` in the further one, in the
+    /// first one the `there`-th of its `watched`.
+    std::optional<quantity_mapping> here;
+    std::size_t there = 0;
+    std::optional<exact_decimal> rate; ///< it changes by so much a second at most; nothing:
+    exact_decimal level;               ///< it is above or below this between two such readings
+    input_place place;
+};
+
+/// How one recorded file, or several, become a scenario.
 struct scenario_mapping {
     std::string name;
     scenario_role role = scenario_role::fit;
@@ -182,6 +211,11 @@ struct scenario_mapping {
     std::vector<mapped_start> initial_after_break; ///< of the scenarios that a split begins
     std::optional<window_mapping> windows;
     std::size_t thin = 1; ///< each so-many-th reading of a channel is kept
+    /// Of a scenario: its further files with what they hold, which stands in `inputs` and
+    /// `channels` of the scenario, too.
+    std::vector<scenario_mapping> further;
+    std::optional<clock_mapping> clock;    ///< of a further file
+    std::vector<quantity_mapping> watched; ///< read beside those
     input_place place;
 
     /// The unit of a start: the stated one, or that of the channel whose readings show it; empty:

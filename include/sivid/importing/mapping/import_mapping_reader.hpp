@@ -3,6 +3,7 @@
 #define SIVID_IMPORTING_MAPPING_IMPORT_MAPPING_READER_HPP
 
 #include <sivid/importing/detail/import_mapping.hpp>
+#include <sivid/importing/mapping/detail/clock_mapping_reader.hpp>
 #include <sivid/importing/mapping/detail/required_keys.hpp>
 #include <sivid/importing/mapping/detail/source_form_reader.hpp>
 #include <sivid/importing/mapping/detail/window_mapping_reader.hpp>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,7 +42,8 @@ public:
         if (auto const* list = root.find("effects")) result.effects = read_dataset_effects(*list);
         if (auto const* d = root.find("defaults")) {
             d->allow_only({"role", "file", "source", "time", "duration", "interpolation", "inputs",
-                           "channels", "initial", "initial_after_break", "windows", "thin"});
+                           "channels", "further_files", "initial", "initial_after_break", "windows",
+                           "thin"});
             defaults_ = d;
         }
         for (auto const& entry : root.at("scenarios").elements()) {
@@ -97,22 +100,15 @@ private:
 
     [[nodiscard]] scenario_mapping read_scenario(json_value const& entry) const {
         entry.allow_only({"name", "role", "file", "source", "time", "duration", "interpolation",
-                          "inputs", "channels", "initial", "initial_after_break", "windows",
-                          "thin"});
+                          "inputs", "channels", "further_files", "initial", "initial_after_break",
+                          "windows", "thin"});
         scenario_mapping result;
         result.place = entry.place();
         result.name = mapping_entries::name(entry.at("name"), entry.at("name").string());
         if (auto const* role = either(entry, "role"); role && role->is_second_of("fit", "holdout"))
             result.role = scenario_role::holdout;
-        std::filesystem::path const stated{need(entry, "file").string()};
-        result.file = stated.is_absolute() ? stated : file_.parent_path() / stated;
-        if (auto const* form = either(entry, "source")) result.form = read_source_form(*form);
-        bool const serial = result.form.from == source_form::kind::serial;
-        result.time = read_time_mapping(need(entry, "time"), serial);
-        if (result.form.from == source_form::kind::matlab && result.time.form != time_form::number)
-            need(entry, "time")
-                .at("unit")
-                .fail("texts, and MATLAB files hold numbers", "write s, ms, us, ns, min or h");
+        auto const* source = either(entry, "source");
+        read_file(need(entry, "file"), source, need(entry, "time"), result);
         bool const splits =
             result.form.gap == break_policy::split || result.form.restart == break_policy::split;
         if (splits && !result.time.from_first)
@@ -125,8 +121,13 @@ private:
             between && between->is_second_of("linear", "hold"))
             result.between = interpolation::hold;
         if (auto const* inputs = either(entry, "inputs")) result.inputs = quantities(*inputs, true);
-        auto const& channels = need(entry, "channels");
-        result.channels = quantities(channels, false);
+        auto const* further = either(entry, "further_files");
+        auto const& channels = further != nullptr && either(entry, "channels") == nullptr
+                                   ? *further
+                                   : need(entry, "channels");
+        if (&channels != further) result.channels = quantities(channels, false);
+        if (further != nullptr)
+            for (auto const& file : further->elements()) add_further(file, result);
         if (result.channels.empty())
             channels.fail("no channel is measured", "map at least one channel of the model");
         if (auto const* initial = either(entry, "initial"))
@@ -144,11 +145,59 @@ private:
         return result;
     }
 
-    static std::vector<quantity_mapping> quantities(json_value const& list, bool inputs) {
+    void read_file(json_value const& file, json_value const* source, json_value const& time,
+                   scenario_mapping& result) const {
+        std::filesystem::path const stated{file.string()};
+        result.file = stated.is_absolute() ? stated : file_.parent_path() / stated;
+        if (source != nullptr) result.form = read_source_form(*source);
+        result.time = read_time_mapping(time, result.form.from == source_form::kind::serial);
+        if (result.form.from == source_form::kind::matlab && result.time.form != time_form::number)
+            time.at("unit").fail("texts, and MATLAB files hold numbers",
+                                 "write s, ms, us, ns, min or h");
+    }
+
+    /// A further file of a scenario, whose quantities join those of the first one.
+    void add_further(json_value const& entry, scenario_mapping& scenario) const {
+        entry.allow_only({"file", "source", "time", "clock", "inputs", "channels"});
+        scenario_mapping f;
+        f.place = entry.place();
+        read_file(entry.at("file"), entry.find("source"), entry.at("time"), f);
+        f.name = text_of(scenario.name, " (", f.file.filename().string(), ")");
+        f.between = scenario.between;
+        if (f.form.gap == break_policy::split || f.form.restart == break_policy::split)
+            entry.at("source").fail("a further file is not split", "write refuse, keep or drop");
+        std::optional<quantity_mapping> there;
+        f.clock = read_clock_mapping(entry.at("clock"), there);
+        if (f.clock->here) f.watched.push_back(*f.clock->here);
+        f.clock->there = scenario.watched.size();
+        if (there) scenario.watched.push_back(*there);
+        auto const join = [&](char const* key,
+                              std::vector<quantity_mapping> scenario_mapping::*to) {
+            auto const* list = entry.find(key);
+            if (list == nullptr) return;
+            f.*to = quantities(*list, to == &scenario_mapping::inputs, true);
+            for (auto q : f.*to) {
+                for (auto const& other : scenario.*to)
+                    if (other.name == q.name)
+                        list->fail(text_of(in_quotes(q.name), " stands in two files"),
+                                   "keep one of them");
+                q.file = scenario.further.size() + 1;
+                (scenario.*to).push_back(std::move(q));
+            }
+        };
+        join("inputs", &scenario_mapping::inputs);
+        join("channels", &scenario_mapping::channels);
+        if (f.inputs.empty() && f.channels.empty())
+            entry.fail("nothing of the file is used", "map \"inputs\" or \"channels\" of it");
+        scenario.further.push_back(std::move(f));
+    }
+
+    static std::vector<quantity_mapping> quantities(json_value const& list, bool inputs,
+                                                    bool further = false) {
         std::vector<quantity_mapping> result;
         for (std::size_t i = 0; i < list.members().size(); ++i) {
             auto const& entry = list.members()[i];
-            auto q = read_quantity_mapping(entry, list.name_of(i), inputs);
+            auto q = read_quantity_mapping(entry, list.name_of(i), inputs, further);
             for (auto const& other : result)
                 if (other.name == q.name + "_err" || q.name == other.name + "_err")
                     entry.fail(text_of("the name ", in_quotes(q.name), " and ",

@@ -78,18 +78,24 @@ private:
         auto const& source = files_.read(s);
         auto const& stretches = source.stretches;
         auto& protocol = result_.protocol;
-        for (auto const& n : source.notes) {
-            if (n.lines.empty()) protocol.add(n.what, s.name, n.field, n.reason);
-            for (auto const line : n.lines) protocol.add(n.what, s.name, n.field, n.reason, line);
-        }
+        take_over(source.notes, s.name);
         bool const only = stretches.size() == 1;
+        std::vector<recorded_table const*> further;
+        for (auto const& f : s.further) {
+            auto const& other = files_.read(s, f);
+            take_over(other.notes, f.name);
+            if (!only || other.stretches.size() != 1)
+                throw input_error{f.place, "one of the files is split into stretches",
+                                  "cut it, and import each stretch with what belongs to it"};
+            further.push_back(&other.stretches.front());
+        }
         auto const before = open_.size();
         std::optional<input_error> first;
         for (std::size_t i = 0; i < stretches.size(); ++i) {
             auto const name = only ? s.name : s.name + "-" + std::to_string(i + 1);
             std::vector<open_scenario> next;
             try {
-                next = scenario_import{s, name, only, protocol}.read(stretches[i]);
+                next = scenario_import{s, name, only, protocol}.read(stretches[i], further);
             } catch (input_error const& e) {
                 if (only) throw;
                 if (!first) first = e;
@@ -112,6 +118,13 @@ private:
                               "no stretch of the log makes a scenario; of the first one: " +
                                   first->problem(),
                               first->remedy()};
+    }
+    void take_over(std::vector<import_protocol::note> const& notes, std::string const& scenario) {
+        auto& protocol = result_.protocol;
+        for (auto const& n : notes) {
+            if (n.lines.empty()) protocol.add(n.what, scenario, n.field, n.reason);
+            for (auto const line : n.lines) protocol.add(n.what, scenario, n.field, n.reason, line);
+        }
     }
     void add_summary(open_scenario const& s, std::size_t lines) {
         import_protocol::scenario_summary summary;
@@ -235,7 +248,7 @@ private:
                 values.push_back(*nearest(sample.reading.value));
                 if (q->mapping->error.from == bound_source::kind::none) continue;
                 input.stated_error.push_back(bound(*q, sample, true));
-                input.error.push_back(upper(enclosed(s, sample, input.stated_error.back())));
+                input.error.push_back(upper(enclosed(*q, sample, input.stated_error.back())));
             }
             bridge(s, *q, input);
             input.signal = sampled_signal{std::move(times), std::move(values), s.mapping->between};
@@ -248,7 +261,7 @@ private:
         std::vector<entry> all;
         for (auto const& q : s.channels)
             for (std::size_t k = 0; k < q.samples.size(); k += s.mapping->thin) {
-                auto r = reading(s, q, q.samples[k], q.mapping->model_error);
+                auto r = reading(q, q.samples[k], q.mapping->model_error);
                 all.push_back(
                     {{r.time, *index_of(result_.names.channels, q.mapping->name), r.bound},
                      {std::move(r.value), std::move(r.error)}});
@@ -269,13 +282,12 @@ private:
         return result;
     }
 
-    [[nodiscard]] start_reading reading(open_scenario const& s, imported_quantity const& q,
-                                        imported_sample const& sample,
+    [[nodiscard]] start_reading reading(imported_quantity const& q, imported_sample const& sample,
                                         exact_decimal const& more = {}) const {
         auto const& value = sample.reading.value;
         auto error = bound(q, sample, false) + more;
         auto const ends = enclose(value - error, value + error);
-        if (!ends) (void)enclosed(s, sample, error + magnitude(value));
+        if (!ends) (void)enclosed(q, sample, error + magnitude(value));
         return {*nearest(sample.time), value, std::move(error), *ends};
     }
 
@@ -304,8 +316,8 @@ private:
                                     [&](auto const& c) { return c.mapping->name == m.channel; });
         std::vector<start_reading> readings;
         if (m.within)
-            for (auto const& sample : q->before) readings.push_back(reading(s, *q, sample));
-        for (auto const& sample : q->samples) readings.push_back(reading(s, *q, sample));
+            for (auto const& sample : q->before) readings.push_back(reading(*q, sample));
+        for (auto const& sample : q->samples) readings.push_back(reading(*q, sample));
         auto const& fraction = mapping_.max_outlier_fraction;
         auto const found = propose_start(m, readings, fraction.times(s.reading_count()).floor());
         bool const rate = m.from == mapped_start::kind::rate;
@@ -398,11 +410,11 @@ private:
                                      " are outliers, wherever those of the record lie"));
     }
 
-    static interval enclosed(open_scenario const& s, imported_sample const& sample,
+    static interval enclosed(imported_quantity const& q, imported_sample const& sample,
                              exact_decimal const& x) {
         auto const result = enclose(x);
         if (!result)
-            throw input_error{{.file = s.mapping->file.string(), .line = sample.line},
+            throw input_error{{.file = q.from->file.string(), .line = sample.line},
                               "value and error bound are beyond the range of double",
                               "check factor and error"};
         return *result;

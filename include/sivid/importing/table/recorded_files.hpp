@@ -41,13 +41,18 @@ public:
     recorded_files(import_mapping const& mapping, import_tools tools)
         : mapping_{mapping}, tools_{std::move(tools)} {}
 
-    /// @param s  a scenario of the mapping; they are asked for in their order
-    /// @returns  valid until the next call
+    /// @param of  a scenario of the mapping; they are asked for in their order
+    /// @param s   it, or a further file of it
+    /// @returns  valid until another scenario asks
     /// @throws input_error
-    [[nodiscard]] recorded_stretches const& read(scenario_mapping const& s) {
+    [[nodiscard]] recorded_stretches const& read(scenario_mapping const& of,
+                                                 scenario_mapping const& s) {
         std::erase_if(kept_, [&](recorded_stretches const& r) { // no scenario from here on asks
-            return std::none_of(&s, mapping_.scenarios.data() + mapping_.scenarios.size(),
-                                [&](auto const& later) { return same(later, *r.by); });
+            auto const asks = [&](scenario_mapping const& file) { return same(file, *r.by); };
+            return std::none_of(&of, mapping_.scenarios.data() + mapping_.scenarios.size(),
+                                [&](auto const& later) {
+                                    return asks(later) || std::ranges::any_of(later.further, asks);
+                                });
         });
         for (auto const& r : kept_)
             if (same(*r.by, s)) return r;
@@ -72,6 +77,9 @@ public:
         result.notes = protocol.notes();
         return kept_.emplace_back(std::move(result));
     }
+
+    /// The first file of a scenario.
+    [[nodiscard]] recorded_stretches const& read(scenario_mapping const& s) { return read(s, s); }
 
 private:
     static bool same(scenario_mapping const& a, scenario_mapping const& b) {

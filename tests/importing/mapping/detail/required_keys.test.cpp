@@ -36,6 +36,21 @@ TEST_CASE("all missing keys are named at once, with what they mean") {
     CHECK(message(std::string{io_support::serial_mapping}) == "complete");
 }
 
+TEST_CASE("what further files lack is named, and the first one may measure nothing") {
+    auto const text = message(R"({ "id": "x", "model": "m", "parameters": {},
+        "max_outlier_fraction": 0,
+        "scenarios": [ { "name": "A", "file": "a.csv", "time": { "sample_time": 1 },
+                         "further_files": [ { "file": "b.csv", "inputs": { "u": {} },
+                                              "clock": {} }, {}, 7 ] } ] })");
+    CHECK_THAT(text, ContainsSubstring("7 keys are missing: /scenarios/0/further_files/0/time (") &&
+                         ContainsSubstring("/further_files/0/inputs/u/column") &&
+                         ContainsSubstring("/further_files/0/clock/offset (what to add") &&
+                         ContainsSubstring("/further_files/1/file (") &&
+                         ContainsSubstring("/further_files/1/time (") &&
+                         ContainsSubstring("/further_files/1/clock (how it differs") &&
+                         ContainsSubstring("/scenarios/0/interpolation ("));
+}
+
 TEST_CASE("what the defaults lack is named once") {
     auto const text = message(R"({ "id": "x", "model": "m", "parameters": {},
         "max_outlier_fraction": 0,

@@ -102,6 +102,18 @@ TEST_CASE("a quantity") {
         CHECK_THROWS_AS(read_quantity_mapping(entry(bad), "y", false), input_error);
     CHECK_THROWS_AS(read_quantity_mapping(entry(R"({"column": 1, "period": [6, 7]})"), "u", true),
                     input_error);
+    auto const sum = read_quantity_mapping(
+        entry(R"({"column": {"sum": {"left": 1, "right": -1}}, "signed_bits": 16, "error": 1})"),
+        "y", false);
+    REQUIRE(sum.columns.size() == 2);
+    CHECK(sum.columns[1].column.heading == "right");
+    CHECK(sum.columns[1].factor == dec("-1"));
+    CHECK(sum.signed_bits == 16u);
+    for (auto const* bad :
+         {R"({"column": {"sum": {}}, "error": 1})", R"({"column": {"sum": {"a": 0}}, "error": 1})",
+          R"({"column": {"a": 1}, "error": 1})",
+          R"({"column": 1, "signed_bits": 16, "counter_bits": 16, "error": 1})"})
+        CHECK_THROWS_AS(read_quantity_mapping(entry(bad), "y", false), input_error);
     for (auto const* bad : {R"({"error": 1})", R"({"column": 1})", R"({"column": 1, "error": 0})",
                             R"({"column": 1, "error": "guess"})", R"({"column": 1, "error": {}})",
                             R"({"column": 1, "error": 1, "factor": 0})",

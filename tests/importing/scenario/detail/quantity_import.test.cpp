@@ -69,6 +69,30 @@ TEST_CASE("counts are followed, and what is no count is dropped") {
     CHECK(has_note(r.protocol, "less than half its range"));
 }
 
+TEST_CASE("registers have signs, and columns are added up") {
+    quantity_mapping q;
+    q.name = "i";
+    q.error.from = bound_source::kind::number;
+    q.signed_bits = 16;
+    auto const r =
+        read(q, {{"0"}, {"32767"}, {"32768"}, {"65535"}, {"65536"}, {"-3"}, {"1.5"}, {"-32769"}});
+    std::vector<std::string> values;
+    for (auto const& s : r.quantity.samples) values.push_back(s.reading.value.text());
+    CHECK(values == std::vector<std::string>{"0", "32767", "-32768", "-1", "-3"});
+    CHECK(noted(r.protocol, "no register of 16 bits") == std::vector<std::size_t>{6, 8, 9});
+    // Two words of one register, then the bound of its error.
+    q.columns = {{{"hi", 0, {}}, dec("65536")}, {{"lo", 0, {}}, dec("1")}};
+    q.signed_bits = 32;
+    q.error.from = bound_source::kind::column;
+    auto const words = read(q, {{"0", "7", "1"}, {"65535", "65534", "1"}, {"1", "", "1"}});
+    REQUIRE(words.quantity.samples.size() == 2);
+    CHECK(words.cell == 3);
+    CHECK(words.quantity.samples[0].reading.value == dec("7"));
+    CHECK(words.quantity.samples[1].reading.value == dec("-2"));
+    CHECK(noted(words.protocol, "no reading") == std::vector<std::size_t>{4});
+    CHECK(has_note(words.protocol, "the reading is 65536 hi + 1 lo"));
+}
+
 TEST_CASE("angles are followed, with what the period leaves open in the error bound") {
     quantity_mapping q;
     q.name = "psi";

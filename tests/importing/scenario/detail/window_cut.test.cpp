@@ -88,6 +88,41 @@ TEST_CASE("windows that begin with a reading are moved to it, and still share no
     CHECK(r.data.scenarios.size() == 9);
 }
 
+TEST_CASE("windows lie where a column is in a range") {
+    std::string table = "time,pump,level,motor\n"; // off from 0.2 to 0.5 s and from 0.8 s on
+    for (int i = 0; i <= 100; ++i)
+        table += std::to_string(10 * i) + ",1," + std::to_string(i) + "," +
+                 (i == 90                           ? ""
+                  : (i >= 20 && i <= 50) || i >= 80 ? "0"
+                                                    : "1") +
+                 "\n";
+    auto const cut = [&](std::string const& more) {
+        std::vector<std::string> result;
+        auto const r =
+            import_csv(mapping(R"("windows": { "length": 0.1, "while": {"column": "motor",
+                                             "within": [0, 0.5]})" +
+                               more + " }"),
+                       table);
+        for (auto const& s : r.data.scenarios) {
+            auto const all = values(s);
+            result.push_back(s.name.substr(2) + ":" + all.front() + "-" + all.back());
+        }
+        return result;
+    };
+    // The one missing reading of the motor ends a stretch.
+    CHECK(cut("") == std::vector<std::string>{"w1:20-29", "w2:30-39", "w3:40-50"});
+    CHECK(cut(R"(, "first": 0.05, "every": 0.15)") ==
+          std::vector<std::string>{"w1:25-35", "w2:40-50"});
+    CHECK_THAT(refusal(mapping(R"("windows": { "length": 0.4, "while": {"column": "motor",
+                                   "within": [0, 0.5]} })"),
+                       table),
+               ContainsSubstring("where \"while\" holds"));
+    CHECK_THAT(refusal(mapping(R"("windows": { "length": 0.4, "while": {"column": "engine",
+                                   "within": [0, 0.5]} })"),
+                       table),
+               ContainsSubstring("has no column"));
+}
+
 TEST_CASE("a window without a reading to begin with is left out, with a note") {
     std::string table = "time,pump,level\n";
     for (int i = 0; i <= 100; ++i)

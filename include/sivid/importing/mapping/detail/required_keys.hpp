@@ -62,37 +62,55 @@ private:
     }
 
     void scenario(json_value const& s) {
+        auto const get = [&](char const* key) { return either(s, key); };
+        auto const* further = get("further_files");
         all(s, {{"name", ""}});
-        for (auto const& [key, hint] :
-             keys{{"file", "relative to the mapping"},
-                  {"time", "its column, unit and offset, or a sample time"},
-                  {"channels", "what is measured, by the model's names"}})
-            if (either(s, key) == nullptr) all(s, {{key, hint}});
-        auto const* inputs = object(either(s, "inputs"));
-        if (inputs != nullptr && !inputs->members().empty() &&
-            either(s, "interpolation") == nullptr)
+        keys wanted{{"file", "relative to the mapping"},
+                    {"time", "its column, unit and offset, or a sample time"}};
+        if (further == nullptr)
+            wanted.emplace_back("channels", "what is measured, by the model's names");
+        for (auto const& key : wanted)
+            if (get(key.first) == nullptr) all(s, {key});
+        bool any = file(get);
+        wanted = {wanted[0], wanted[1], {"clock", "how it differs from that of the first file"}};
+        if (further != nullptr && further->type() == json_value::kind::array)
+            for (auto const& f : further->elements()) {
+                if (object(&f) == nullptr) continue;
+                all(f, wanted);
+                any = file([&](char const* key) { return f.find(key); }) || any;
+                if (auto const* clock = object(f.find("clock")))
+                    all(*clock, {{"offset", "what to add in the middle of the file, in seconds: a "
+                                            "number or the range that it is in"}});
+            }
+        if (any && get("interpolation") == nullptr)
             all(s, {{"interpolation", "linear or hold, between the readings of an input"}});
-        for (auto const& q : members(inputs)) all(q, {{"column", ""}});
-        for (auto const& q : members(either(s, "channels")))
-            all(q, {{"column", ""}, {"error", "the bound of its error, or \"propose\""}});
-        if (auto const* source = object(either(s, "source")))
-            if (auto const* kind = source->find("kind"); kind != nullptr &&
-                                                         kind->type() == json_value::kind::string &&
-                                                         kind->raw_string() == "serial")
-                all(*source, {{"fields", "what a line holds"},
-                              {"longest_gap", "the longest usual time between lines, in seconds"}});
-        if (auto const* time = object(either(s, "time"));
-            time != nullptr && time->find("sample_time") == nullptr)
-            all(*time, {{"column", "or sample_time, the time from row to row"},
-                        {"unit", ""},
-                        {"offset", "where t = 0 lies: \"first\" for the first row, or what is "
-                                   "added to the times, in seconds"}});
         starts(either(s, "initial"));
         starts(either(s, "initial_after_break"));
         if (auto const* windows = object(either(s, "windows"))) {
             all(*windows, {{"length", "of a window, in seconds"}});
             starts(windows->find("initial"));
         }
+    }
+    /// @param get  an entry of the file. @returns whether it holds inputs
+    template <class Get>
+    bool file(Get const& get) {
+        auto const* inputs = object(get("inputs"));
+        for (auto const& q : members(inputs)) all(q, {{"column", ""}});
+        for (auto const& q : members(get("channels")))
+            all(q, {{"column", ""}, {"error", "the bound of its error, or \"propose\""}});
+        if (auto const* source = object(get("source")))
+            if (auto const* kind = source->find("kind"); kind != nullptr &&
+                                                         kind->type() == json_value::kind::string &&
+                                                         kind->raw_string() == "serial")
+                all(*source, {{"fields", "what a line holds"},
+                              {"longest_gap", "the longest usual time between lines, in seconds"}});
+        if (auto const* time = object(get("time"));
+            time != nullptr && time->find("sample_time") == nullptr)
+            all(*time, {{"column", "or sample_time, the time from row to row"},
+                        {"unit", ""},
+                        {"offset", "where t = 0 lies: \"first\" for the first row, or what is "
+                                   "added to the times, in seconds"}});
+        return inputs != nullptr && !inputs->members().empty();
     }
     void starts(json_value const* list) {
         for (auto const& entry : members(list)) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sivid {
 namespace mapping_entries {
@@ -26,7 +27,22 @@ namespace mapping_entries {
     return result;
 }
 
-/// Bits of a counter that wraps.
+/// A column, or {"sum": {HEADING: factor, ...}}.
+[[nodiscard]] inline std::vector<column_share> column_shares(json_value const& entry) {
+    if (entry.type() != json_value::kind::object) return {{column(entry)}};
+    entry.allow_only({"sum"});
+    std::vector<column_share> result;
+    auto const& sum = entry.at("sum");
+    for (std::size_t i = 0; i < sum.members().size(); ++i) {
+        auto const& factor = sum.members()[i];
+        result.push_back({{sum.name_of(i), 0, factor.place()}, factor.number()});
+        if (result.back().factor.is_zero()) factor.fail("a column times 0", "leave it out");
+    }
+    if (result.empty()) sum.fail("a sum of no column", "name at least one, with its factor");
+    return result;
+}
+
+/// Bits of a register, or of a counter that wraps.
 [[nodiscard]] inline unsigned counter_bits(json_value const& entry) {
     return static_cast<unsigned>(whole(entry, 8, 48));
 }
@@ -263,7 +279,8 @@ inline void read_bound(json_value const& entry, bool input, quantity_mapping& q)
 
 /// "time_error" and "model_error" of a channel.
 /// @throws input_error
-inline void read_further_errors(json_value const& entry, bool input, quantity_mapping& q) {
+inline void read_further_errors(json_value const& entry, bool input, bool further,
+                                quantity_mapping& q) {
     using namespace mapping_entries;
     for (auto const* key : {"time_error", "model_error"})
         if (auto const* e = entry.find(key); e != nullptr && input)
@@ -273,7 +290,9 @@ inline void read_further_errors(json_value const& entry, bool input, quantity_ma
     auto const* e = entry.find("time_error");
     if (e == nullptr) return;
     e->allow_only({"within", "rate", "acceleration"});
-    q.clock = positive(e->at("within"), "state how far off a time may be, in seconds");
+    // Of a further file the import knows how far off its clock may be.
+    if (auto const* within = further ? e->find("within") : &e->at("within"))
+        q.clock = positive(*within, "state how far off a time may be, in seconds");
     q.curved = e->find("rate") == nullptr;
     if (!q.curved && e->find("acceleration") != nullptr)
         e->fail("\"rate\" and \"acceleration\"", "state one of them");
@@ -284,16 +303,19 @@ inline void read_further_errors(json_value const& entry, bool input, quantity_ma
 }
 
 /// An entry of "inputs" or "channels".
+/// @param further  it stands in a further file
 /// @throws input_error
 [[nodiscard]] inline quantity_mapping read_quantity_mapping(json_value const& entry,
-                                                            std::string const& name, bool input) {
+                                                            std::string const& name, bool input,
+                                                            bool further = false) {
     using namespace mapping_entries;
-    entry.allow_only({"column", "unit", "factor", "divisor", "offset", "counter_bits", "period",
-                      "range", "error", "bridge", "time_error", "model_error"});
+    entry.allow_only({"column", "unit", "factor", "divisor", "offset", "counter_bits",
+                      "signed_bits", "period", "range", "error", "bridge", "time_error",
+                      "model_error"});
     quantity_mapping q;
     q.place = entry.place();
     q.name = mapping_entries::name(entry, name);
-    q.column = column(entry.at("column"));
+    q.columns = column_shares(entry.at("column"));
     if (auto const* unit = entry.find("unit")) {
         q.unit = unit->any_string();
         (void)read_unit(*unit);
@@ -314,6 +336,10 @@ inline void read_further_errors(json_value const& entry, bool input, quantity_ma
     if (auto const* o = entry.find("offset")) q.conversion.offset = o->number();
     if (auto const* b = entry.find("counter_bits"))
         q.counter_bits = mapping_entries::counter_bits(*b);
+    if (auto const* b = entry.find("signed_bits")) {
+        if (q.counter_bits) b->fail("a counter wraps, whatever its sign", "keep \"counter_bits\"");
+        q.signed_bits = mapping_entries::counter_bits(*b);
+    }
     if (auto const* p = entry.find("period")) {
         if (q.counter_bits)
             p->fail("a counter wraps by its bits", "state \"counter_bits\" or \"period\"");
@@ -331,7 +357,7 @@ inline void read_further_errors(json_value const& entry, bool input, quantity_ma
         q.range.emplace(ends.lower, ends.upper);
     }
     read_bound(entry, input, q);
-    read_further_errors(entry, input, q);
+    read_further_errors(entry, input, further, q);
     return q;
 }
 

@@ -3,6 +3,7 @@
 #define SIVID_IMPORTING_MAPPING_DETAIL_WINDOW_MAPPING_READER_HPP
 
 #include <sivid/importing/detail/import_mapping.hpp>
+#include <sivid/importing/mapping/detail/source_form_reader.hpp>
 #include <sivid/io/dataset/mapping_entries.hpp>
 #include <sivid/io/dataset/stated_unit.hpp>
 
@@ -96,12 +97,12 @@ read_starts(json_value const& list, std::vector<quantity_mapping> const& channel
     return result;
 }
 
-/// "windows": length, every, first, count, holdout and the starts.
+/// "windows": length, every, first, count, holdout, the rows they are cut of, and the starts.
 /// @throws input_error
 [[nodiscard]] inline window_mapping
 read_window_mapping(json_value const& entry, std::vector<quantity_mapping> const& channels) {
     constexpr std::size_t most = 100'000;
-    entry.allow_only({"length", "every", "first", "count", "holdout", "initial"});
+    entry.allow_only({"length", "every", "first", "count", "holdout", "initial", "while"});
     window_mapping w;
     w.place = entry.place();
     w.length = mapping_entries::positive(entry.at("length"), "state it in seconds");
@@ -123,6 +124,11 @@ read_window_mapping(json_value const& entry, std::vector<quantity_mapping> const
                 w.holdout.push_back(mapping_entries::whole(number, 1, most));
         else
             w.holdout_every = mapping_entries::whole(*holdout, 2, most);
+    }
+    if (auto const* rows = entry.find("while")) {
+        rows->allow_only({"column", "within"});
+        auto const within = mapping_entries::range(rows->at("within"));
+        w.rows = {mapping_entries::column(rows->at("column")), {within.lower, within.upper}};
     }
     if (auto const* initial = entry.find("initial")) w.initial = read_starts(*initial, channels);
     return w;

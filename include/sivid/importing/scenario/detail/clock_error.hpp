@@ -3,6 +3,7 @@
 #define SIVID_IMPORTING_SCENARIO_DETAIL_CLOCK_ERROR_HPP
 
 #include <sivid/importing/scenario/detail/quantity_import.hpp>
+#include <sivid/measurement/signal.hpp>
 #include <sivid/number/interval_traits.hpp>
 
 #include <algorithm>
@@ -26,9 +27,14 @@ namespace sivid {
 /// @returns "", or why there is no bound
 [[nodiscard]] inline std::string add_clock_errors(imported_quantity& q) {
     auto const& m = *q.mapping;
-    if (m.clock.is_zero()) return {};
+    auto const off = m.clock + q.clock;
+    if (off.is_zero()) return {};
+    if (m.slope.is_zero())
+        return text_of("the times of its file are known within ", q.clock.text(),
+                       " s: how fast what it shows changes, \"rate\" or \"acceleration\", is not "
+                       "stated");
     auto& all = q.samples;
-    interval const c = *enclose(m.clock), stated = *enclose(m.slope);
+    interval const c = *enclose(off), stated = *enclose(m.slope);
     std::vector<interval> times, ends;
     for (std::size_t k = 0; m.curved && k < all.size(); ++k) {
         auto const& s = all[k];
@@ -53,6 +59,49 @@ namespace sivid {
         if (!std::isfinite(slope))
             return "two readings are needed, further apart than their times are off";
         all[k].late = rounded_up(exact_decimal::of((c * interval{slope}).upper()), 3);
+    }
+    return {};
+}
+
+/// The same for an input whose times may be off by c: at each time it is within its error of its
+/// own course at most c earlier or later, which differs from that course by at most c times the
+/// steepest slope around, or by what a held one has stepped.
+/// @returns "", or why there is no bound
+[[nodiscard]] inline std::string add_clock_errors_of_input(imported_quantity& q,
+                                                           interpolation between) {
+    if (q.clock.is_zero()) return {};
+    auto& all = q.samples;
+    if (q.mapping->error.from == bound_source::kind::none)
+        return text_of("the times of its file are known within ", q.clock.text(),
+                       " s, so it is not exact: it has no \"error\"");
+    interval const c = *enclose(q.clock);
+    std::vector<interval> times, values;
+    for (auto const& s : all) {
+        times.push_back(*enclose(s.time));
+        auto const value = enclose(s.reading.value);
+        if (!value) return "readings are beyond the range of double";
+        values.push_back(*value);
+    }
+    bool const held = between == interpolation::hold;
+    std::vector<double> late(all.size(), 0);
+    std::size_t first = 0; // of the pieces that reach into [begin, end]
+    for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+        double const begin = (times[i] - c).lower(), end = (times[i + 1] + c).upper();
+        while (times[first + 1].upper() < begin) ++first;
+        double most = 0;
+        for (auto k = first; k + 1 < all.size() && times[k].lower() <= end; ++k) {
+            if (held)
+                most = std::max({most, mag(values[k] - values[i]), mag(values[k + 1] - values[i])});
+            else
+                most = std::max(most, mag((values[k + 1] - values[k]) / (times[k + 1] - times[k])));
+        }
+        double const more = held ? most : (c * interval{most}).upper();
+        late[i] = std::max(late[i], more);
+        late[i + 1] = more;
+    }
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!std::isfinite(late[k])) return "readings are beyond the range of double";
+        if (late[k] > 0) all[k].late = rounded_up(exact_decimal::of(late[k]), 3);
     }
     return {};
 }

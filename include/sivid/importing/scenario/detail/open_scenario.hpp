@@ -78,14 +78,15 @@ private:
             for (std::size_t i = 0; i < q.samples.size(); ++i) {
                 if (i > 0 && !differ(q.samples[i - 1], q.samples[i])) continue;
                 if (auto const t = nearest(q.samples[i].time + offset)) {
-                    auto& line = steps_[*t];
+                    auto& line = steps_[{q.from, *t}];
                     line = std::max(line, q.samples[i].line);
                 }
             }
         }
     }
-    [[nodiscard]] bool steps_later(imported_sample const& reading, double t) const {
-        auto const step = steps_.find(t);
+    [[nodiscard]] bool steps_later(imported_quantity const& q, imported_sample const& reading,
+                                   double t) const {
+        auto const step = steps_.find({q.from, t});
         return step != steps_.end() && reading.line < step->second;
     }
 
@@ -96,10 +97,10 @@ private:
             sample.time = sample.time + offset;
             auto const t = nearest(sample.time);
             if (!t)
-                throw input_error{{.file = s_.mapping->file.string(), .line = sample.line},
+                throw input_error{{.file = q.from->file.string(), .line = sample.line},
                                   "the time is beyond the range of double",
                                   "check the time's unit and offset"};
-            if (!input && steps_later(sample, *t)) {
+            if (!input && steps_later(q, sample, *t)) {
                 drop(q, sample.line, "an input has a later sample at the same double");
                 continue;
             }
@@ -135,7 +136,7 @@ private:
     [[noreturn]] void refuse(imported_quantity const& q, imported_sample const& first,
                              imported_sample const& second, bool input) const {
         throw input_error{
-            {.file = s_.mapping->file.string(), .line = second.line},
+            {.file = q.from->file.string(), .line = second.line},
             text_of(input ? "the input " : "the channel ", in_quotes(q.mapping->name),
                     " has another value in line ", std::to_string(first.line),
                     ", and the times of both lines are the same double"),
@@ -149,7 +150,7 @@ private:
     import_protocol& protocol_;
     same_time doubled_;
     bool hold_;
-    std::map<double, std::size_t> steps_;
+    std::map<std::pair<scenario_mapping const*, double>, std::size_t> steps_;
 };
 
 /// Adds to all times. Samples that then coincide as doubles are one if they say the same. Of others

@@ -35,6 +35,8 @@ struct imported_sample {
 /// The readings of one input or channel.
 struct imported_quantity {
     quantity_mapping const* mapping = nullptr;
+    scenario_mapping const* from = nullptr; ///< the file that it stands in
+    exact_decimal clock;                    ///< [s] how far off that file's times may be
     std::vector<imported_sample> samples;
     std::vector<imported_sample> before; ///< of a window: those of the record, for its start
 
@@ -58,6 +60,7 @@ public:
     [[nodiscard]] imported_quantity read(recorded_table const& table, std::size_t& cell) {
         imported_quantity result;
         result.mapping = &q_;
+        result.from = &s_;
         if (q_.counter_bits) counter_.emplace(*q_.counter_bits);
         if (q_.period) turns_.emplace(q_.period->first, q_.period->second);
         auto const smeared = smeared_rows(table, cell);
@@ -65,14 +68,14 @@ public:
         for (std::size_t k = 0; k < table.rows.size(); ++k) {
             auto const& row = table.rows[k];
             auto sample = read_row(row, cell, smeared[k]);
-            rows.add(row.lost, row.cells[cell].has_value(), sample.has_value());
+            rows.add(row.lost, reading(row, cell).has_value(), sample.has_value());
             if (sample) result.samples.push_back(std::move(*sample));
         }
         for (std::size_t i = 0; i < result.samples.size(); ++i) {
             result.samples[i].missing = rows.missing_before(i);
             result.samples[i].lost = rows.lost_before(i);
         }
-        cell += has_error() ? 2 : 1;
+        cell += q_.columns.size() + (has_error() ? 1 : 0);
         report(result);
         return result;
     }
@@ -81,6 +84,29 @@ private:
     using kind = import_protocol::kind;
 
     [[nodiscard]] bool has_error() const { return q_.error.from == bound_source::kind::column; }
+    /// What the cells of a row say together; nothing: one of them is missing.
+    [[nodiscard]] std::optional<exact_decimal> reading(recorded_table::row const& row,
+                                                       std::size_t cell) const {
+        exact_decimal sum;
+        for (std::size_t k = 0; k < q_.columns.size(); ++k) {
+            auto const& share = row.cells[cell + k];
+            if (!share) return std::nullopt;
+            sum = sum + share->times(q_.columns[k].factor);
+        }
+        if (!q_.signed_bits) return sum;
+        auto const two_to = [](unsigned bits) {
+            return *exact_decimal::parse(std::to_string(std::size_t{1} << bits));
+        };
+        auto const half = two_to(*q_.signed_bits - 1), whole = two_to(*q_.signed_bits);
+        return sum < half || !(sum < whole) ? sum : sum - whole;
+    }
+    /// Whether a reading can be of a register with a sign.
+    [[nodiscard]] bool in_register(exact_decimal const& raw) const {
+        if (!q_.signed_bits) return true;
+        auto const size = magnitude(raw).whole();
+        auto const half = std::size_t{1} << (*q_.signed_bits - 1);
+        return size && (*size < half || (*size == half && raw.is_negative()));
+    }
     [[nodiscard]] bool in_range(exact_decimal const& raw) const {
         return !q_.range || !(raw < q_.range->first || q_.range->second < raw);
     }
@@ -93,7 +119,7 @@ private:
         std::vector<std::size_t> rows;
         std::vector<double> readings;
         for (std::size_t k = 0; k < table.rows.size(); ++k) {
-            auto const& raw = table.rows[k].cells[cell];
+            auto const raw = reading(table.rows[k], cell);
             if (!raw || !in_range(*raw) || !nearest(*raw)) continue;
             rows.push_back(k);
             readings.push_back(*nearest(*raw));
@@ -111,10 +137,12 @@ private:
     /// The sample of a row; nothing: there is none, which is noted.
     [[nodiscard]] std::optional<imported_sample> read_row(recorded_table::row const& row,
                                                           std::size_t cell, bool smeared) {
-        auto raw = row.cells[cell];
+        auto raw = reading(row, cell);
         std::string why;
         if (!raw)
             why = "no reading";
+        else if (!in_register(*raw))
+            why = text_of("no register of ", std::to_string(*q_.signed_bits), " bits");
         else if (!in_range(*raw))
             why = text_of("not in the possible range [", q_.range->first.text(), ", ",
                           q_.range->second.text(), "]");
@@ -130,7 +158,7 @@ private:
         sample.line = row.line;
         sample.time = row.time;
         if (has_error()) {
-            auto const& error = row.cells[cell + 1];
+            auto const& error = row.cells[cell + q_.columns.size()];
             if (!error || !error->is_positive())
                 return drop(row.line, error ? "its error bound is not above 0"
                                             : "its error bound is missing"),
@@ -223,6 +251,12 @@ private:
             doubt_turns(result);
         else
             suspect_period(result);
+        std::string sum;
+        for (auto const& share : q_.columns)
+            sum +=
+                text_of(sum.empty() ? "" : " + ", share.factor.text(), " ", share.column.heading);
+        if (q_.columns.size() > 1)
+            protocol_.add(kind::changed, scenario_, q_.name, "the reading is " + sum);
         if (auto const text = q_.conversion.text(); !text.empty())
             protocol_.add(kind::changed, scenario_, q_.name,
                           text + (q_.unit.empty() ? "" : " [" + q_.unit + "]"));

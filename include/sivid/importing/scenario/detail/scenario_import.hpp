@@ -3,10 +3,12 @@
 #define SIVID_IMPORTING_SCENARIO_DETAIL_SCENARIO_IMPORT_HPP
 
 #include <sivid/importing/scenario/detail/clock_error.hpp>
+#include <sivid/importing/scenario/detail/found_clock.hpp>
 #include <sivid/importing/scenario/detail/window_cut.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,37 +27,26 @@ public:
                     import_protocol& protocol)
         : s_{s}, name_{std::move(name)}, only_{only}, protocol_{protocol} {}
 
+    /// @param further  what the further files of the scenario hold
     /// @throws input_error  when the stretch makes no scenario
-    [[nodiscard]] std::vector<open_scenario> read(recorded_table const& table) {
-        open_scenario whole;
-        whole.name = whole.stretch = name_;
-        whole.mapping = &s_;
-        whole.role = s_.role;
-        whole.first_line = table.first_line;
-        whole.last_line = table.last_line;
-        whole.rows = table.rows.size();
-        std::size_t cell = 0;
-        for (auto const& q : s_.inputs)
-            whole.inputs.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
-        for (auto const& q : s_.channels)
-            whole.channels.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
-        if (table.rows.empty()) fail(0, "the file has no data line", "check the file");
-
+    [[nodiscard]] std::vector<open_scenario>
+    read(recorded_table const& table, std::vector<recorded_table const*> const& further = {}) {
+        auto own = taken(table);
+        auto& whole = own.content;
         note_clock();
-        if (s_.time.sample_time)
-            protocol_.add(kind::assumed, name_, "",
-                          text_of("rows follow each other by ", s_.time.sample_time->text(), " ",
-                                  s_.time.unit, " exactly, and none is missing"));
-        auto const offset = s_.time.from_first ? -start(table, whole) : s_.time.offset;
-        if (!offset.is_zero())
+        if (!own.offset.is_zero())
             protocol_.add(kind::changed, name_, "",
-                          text_of("time shifted by ", offset.text(), " s"));
-        shift_times(whole, offset, protocol_);
-        for (auto& q : whole.channels)
-            if (auto const why = add_clock_errors(q); !why.empty())
-                fail(whole.last_line,
-                     text_of("the error of the time of ", in_quotes(q.mapping->name), ": ", why),
-                     "correct \"time_error\"");
+                          text_of("time shifted by ", own.offset.text(), " s"));
+        std::vector<open_scenario> parts;
+        for (std::size_t k = 0; k < further.size(); ++k)
+            parts.push_back(
+                scenario_import{s_.further[k], s_.further[k].name, true, protocol_}.beside(
+                    *further[k], own));
+        shift_times(whole, own.offset, protocol_);
+        for (auto& part : parts)
+            for (auto list : {&open_scenario::inputs, &open_scenario::channels})
+                std::ranges::move(part.*list, std::back_inserter(whole.*list));
+        add_errors_of_clocks(whole);
         for (auto& q : whole.inputs) mark_missing(q);
         whole.duration = duration(whole);
         if (s_.thin > 1)
@@ -64,7 +55,9 @@ public:
                                   " readings of a channel is kept, beginning with the first"));
         std::vector<open_scenario> result;
         if (s_.windows)
-            result = window_cut{whole, table, protocol_}.windows();
+            result =
+                window_cut{whole, table, stretches(table, own.offset, whole.duration), protocol_}
+                    .windows();
         else
             result.push_back(std::move(whole));
         for (auto& s : result) close(s);
@@ -73,6 +66,175 @@ public:
 
 private:
     using kind = import_protocol::kind;
+    /// What a file holds, by its own clock.
+    struct own_part {
+        open_scenario content;
+        std::vector<imported_quantity> watched;
+        exact_decimal offset; ///< of its times
+    };
+
+    [[nodiscard]] own_part taken(recorded_table const& table) {
+        own_part result;
+        auto& whole = result.content;
+        whole.name = whole.stretch = name_;
+        whole.mapping = &s_;
+        whole.role = s_.role;
+        whole.first_line = table.first_line;
+        whole.last_line = table.last_line;
+        whole.rows = table.rows.size();
+        std::size_t cell = 0;
+        auto const add = [&](std::vector<quantity_mapping> const& from,
+                             std::vector<imported_quantity>& to) {
+            for (auto const& q : from)
+                if (q.file == 0)
+                    to.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
+        };
+        add(s_.inputs, whole.inputs);
+        add(s_.channels, whole.channels);
+        add(s_.watched, result.watched);
+        if (table.rows.empty()) fail(0, "the file has no data line", "check the file");
+        if (s_.time.sample_time)
+            protocol_.add(kind::assumed, name_, "",
+                          text_of("rows follow each other by ", s_.time.sample_time->text(), " ",
+                                  s_.time.unit, " exactly, and none is missing"));
+        result.offset = s_.time.from_first ? -start(table, whole) : s_.time.offset;
+        return result;
+    }
+
+    /// What a further file holds, on the time axis of the scenario.
+    [[nodiscard]] open_scenario beside(recorded_table const& table, own_part const& of_first) {
+        auto own = taken(table);
+        auto const& c = *s_.clock;
+        static auto const half = *exact_decimal::parse("0.5");
+        auto const begin = table.rows.front().time + own.offset,
+                   end = table.rows.back().time + own.offset;
+        auto const middle = (begin + end).times(half);
+        auto offset = c.offset, drift = c.drift;
+        if (c.here) {
+            auto const prior = [](auto const& ends) {
+                return hull(*enclose(ends.first), *enclose(ends.second));
+            };
+            auto const found =
+                search(shared(own.watched.front(), own.offset - middle),
+                       shared(of_first.watched[c.there], -middle), {prior(offset), prior(drift)});
+            auto const ends = [](interval const& x) {
+                return std::pair{exact_decimal::of(x.lower()), exact_decimal::of(x.upper())};
+            };
+            offset = ends(found.offset);
+            drift = ends(found.drift);
+        }
+        auto const centre = [](auto const& ends) {
+            return exact_decimal::rounded(*nearest((ends.first + ends.second).times(half)), 12);
+        };
+        auto const apart = [](auto const& ends, exact_decimal const& from) {
+            return std::max(magnitude(ends.first - from), magnitude(ends.second - from));
+        };
+        auto const o = centre(offset), d = centre(drift);
+        auto const within = apart(offset, o) + apart(drift, d).times((end - begin).times(half));
+        auto const error = within.is_zero() ? within : rounded_up(within, 3);
+        for (auto list : {&open_scenario::inputs, &open_scenario::channels})
+            for (auto& q : own.content.*list) {
+                q.clock = error;
+                for (auto& sample : q.samples) {
+                    auto const t = sample.time + own.offset;
+                    sample.time = t + o + d.times(t - middle);
+                }
+            }
+        shift_times(own.content, of_first.offset, protocol_);
+        tell_clock(o, d, error);
+        return std::move(own.content);
+    }
+    void tell_clock(exact_decimal const& offset, exact_decimal const& drift,
+                    exact_decimal const& within) {
+        auto const& c = *s_.clock;
+        protocol_.add(kind::changed, name_, "",
+                      text_of("its clock: ", offset.text(),
+                              " s are added in the middle of the "
+                              "file, and ",
+                              drift.text(), " for each second from there"));
+        if (!within.is_zero())
+            protocol_.add(kind::assumed, name_, "",
+                          text_of("the times of the file are off by ", within.text(),
+                                  " s at most, after that: what this may add is in the bounds"));
+        protocol_.add(
+            kind::assumed, name_, "",
+            text_of("offset and drift of its clock are as stated",
+                    !c.here  ? ""
+                    : c.rate ? ", and both files recorded one signal, within its errors, "
+                               "which changes by " +
+                                   c.rate->text() + " a second at most"
+                             : ", and both files recorded one signal, within its errors, "
+                               "which stays on its side of " +
+                                   c.level.text() +
+                                   " between two readings on that side that follow each other"));
+    }
+
+    [[nodiscard]] std::vector<shared_reading> shared(imported_quantity const& q,
+                                                     exact_decimal const& move) const {
+        std::vector<shared_reading> result;
+        for (auto const& sample : q.samples) {
+            auto const error = q.stated(sample) + sample.reading.rounding;
+            auto const value = enclose(sample.reading.value - error, sample.reading.value + error);
+            if (!value)
+                fail(sample.line, "the value is beyond the range of double", "check its factor");
+            result.push_back({*enclose(sample.time + move), *value});
+        }
+        return result;
+    }
+    [[nodiscard]] clock_range search(std::vector<shared_reading> const& here,
+                                     std::vector<shared_reading> const& there,
+                                     clock_range const& prior) const {
+        auto const& c = *s_.clock;
+        auto const found = (c.rate ? clock_search(here, there, prior, enclose(*c.rate)->upper())
+                                   : clock_search(here, there, *nearest(c.level)))(prior);
+        if (!found)
+            throw input_error{c.place,
+                              text_of("with no offset and drift as stated do ", s_.file.string(),
+                                      " and the first file tell the same of ",
+                                      in_quotes(c.here->name)),
+                              "correct \"offset\" and \"drift\", the errors of \"same\", or its "
+                              "\"rate\" or \"level\""};
+        return *found;
+    }
+
+    void add_errors_of_clocks(open_scenario& s) {
+        auto const refuse_clock = [](imported_quantity const& q, std::string const& why,
+                                     char const* remedy) {
+            if (!why.empty())
+                throw input_error{
+                    {.file = q.from->file.string(), .line = q.samples.back().line},
+                    text_of("the error of the time of ", in_quotes(q.mapping->name), ": ", why),
+                    remedy};
+        };
+        for (auto& q : s.channels)
+            refuse_clock(q, add_clock_errors(q), "state or correct its \"time_error\"");
+        for (auto& q : s.inputs)
+            refuse_clock(q, add_clock_errors_of_input(q, s_.between),
+                         "state an error, or import the file that holds it as the first one");
+    }
+
+    /// Where the rows are those that windows are cut of; else all of it.
+    [[nodiscard]] std::vector<window_cut::span> stretches(recorded_table const& table,
+                                                          exact_decimal const& offset,
+                                                          exact_decimal const& duration) {
+        if (!s_.windows->rows) return {{exact_decimal{}, duration}};
+        auto const& within = s_.windows->rows->within;
+        std::vector<window_cut::span> result;
+        bool going = false;
+        for (auto const& row : table.rows) {
+            auto const& cell = row.cells.back();
+            auto const time = row.time + offset;
+            bool const is =
+                cell && !(*cell < within.first) && !(within.second < *cell) && !time.is_negative();
+            if (is && !going) result.emplace_back(time, time);
+            if (is) result.back().second = time;
+            going = is;
+        }
+        protocol_.add(kind::changed, name_, "",
+                      text_of("windows lie where \"while\" holds: in ",
+                              std::to_string(result.size()), " stretches of rows"));
+        return result;
+    }
 
     [[noreturn]] void fail(std::size_t line, std::string problem, std::string remedy) const {
         throw input_error{
@@ -140,12 +302,12 @@ private:
                      text_of("the input ", in_quotes(q.mapping->name), " has no reading"),
                      "check its column");
             auto const& first = q.samples.front();
-            if (*nearest(first.time) > 0)
+            if (*nearest(first.time + q.clock) > 0)
                 fail(first.line,
                      text_of("the input ", in_quotes(q.mapping->name), " starts after t = 0, at ",
                              exact_decimal::shortest(*nearest(first.time)).text(), " s"),
                      "state the time's offset such that t = 0 comes later, or \"first\"");
-            auto const& last = q.samples.back().time;
+            auto const last = q.samples.back().time - q.clock;
             if (!available || last < *available) available = last;
         }
         if (!available) // no inputs: as long as something is measured

@@ -21,10 +21,19 @@ class window_cut {
 public:
     static constexpr std::size_t most = 10'000, most_before = 1000;
 
-    /// @param whole  with its final times
+    using span = std::pair<exact_decimal, exact_decimal>;
+
+    /// @param whole      with its final times
+    /// @param stretches  of time that windows lie in
     /// @given  whole.mapping->windows (trusted)
-    window_cut(open_scenario const& whole, recorded_table const& table, import_protocol& protocol)
-        : whole_{whole}, s_{*whole.mapping}, w_{*s_.windows}, table_{table}, protocol_{protocol} {}
+    window_cut(open_scenario const& whole, recorded_table const& table, std::vector<span> stretches,
+               import_protocol& protocol)
+        : whole_{whole},
+          s_{*whole.mapping},
+          w_{*s_.windows},
+          table_{table},
+          stretches_{std::move(stretches)},
+          protocol_{protocol} {}
 
     /// @throws input_error  when none fits, or too many
     [[nodiscard]] std::vector<open_scenario> windows() {
@@ -47,7 +56,7 @@ public:
             throw input_error{w_.place,
                               text_of("no window of ", w_.length.text(), " s fits into ",
                                       s_.file.string(), ", which lasts ", end_.text(),
-                                      " s from t = 0"),
+                                      " s from t = 0", w_.rows ? ", where \"while\" holds" : ""),
                               "state a shorter \"length\", or another \"first\""};
         return result;
     }
@@ -70,12 +79,27 @@ private:
             if (q.samples.back().time < end_) end_ = q.samples.back().time;
         std::vector<place> result;
         std::size_t number = 1;
-        for (auto from = w_.first; w_.most == 0 || number <= w_.most; ++number) {
-            if (end_ < from + w_.length) {
-                if (from < end_)
+        for (auto const& [begin, end] : stretches_)
+            number = add_places(result, number, begin + w_.first, end < end_ ? end : end_);
+        for (auto const held : w_.holdout)
+            if (held >= number)
+                throw input_error{w_.place,
+                                  text_of("window ", std::to_string(held),
+                                          " is to be held out, and there are ",
+                                          std::to_string(number - 1)),
+                                  "correct \"holdout\""};
+        return result;
+    }
+
+    /// Those of a stretch. @returns the number that comes next
+    std::size_t add_places(std::vector<place>& result, std::size_t number, exact_decimal from,
+                           exact_decimal const& end) {
+        for (; w_.most == 0 || number <= w_.most; ++number) {
+            if (end < from + w_.length) {
+                if (from < end)
                     note(number, text_of("does not fit: it would end at ",
                                          (from + w_.length).text(), " s, what is recorded at ",
-                                         exact_decimal::shortest(*nearest(end_)).text(), " s"));
+                                         exact_decimal::shortest(*nearest(end)).text(), " s"));
                 break;
             }
             if (number > most)
@@ -85,20 +109,13 @@ private:
             auto const at = begin_of(from, next);
             if (!at)
                 note(number, "no reading to begin with before the time of the next one");
-            else if (!(end_ < *at + w_.length))
+            else if (!(end < *at + w_.length))
                 result.push_back({number, *at, *at + w_.length});
             else
                 note(number, "does not fit behind its first reading");
             from = next;
         }
-        for (auto const held : w_.holdout)
-            if (held >= number)
-                throw input_error{w_.place,
-                                  text_of("window ", std::to_string(held),
-                                          " is to be held out, and there are ",
-                                          std::to_string(number - 1)),
-                                  "correct \"holdout\""};
-        return result;
+        return number;
     }
 
     /// The first common reading, from a time on, of the channels that a window's start rests on;
@@ -158,6 +175,7 @@ private:
             auto last = first_at(q, to);
             if (last < q.samples.size() && *nearest(q.samples[last].time) <= to) ++last;
             part.channels.push_back(piece(q, first_at(q, from), std::min(last, first_at(q, next))));
+            if (q.from != &s_) continue; // lines of another file
             for (auto const& sample : part.channels.back().samples) {
                 part.last_line = std::max(part.last_line, sample.line);
                 if (part.first_line == 0 || sample.line < part.first_line)
@@ -182,6 +200,7 @@ private:
     static imported_quantity piece(imported_quantity const& q, std::size_t from, std::size_t to) {
         imported_quantity result;
         result.mapping = q.mapping;
+        result.from = q.from;
         to = std::min(to, q.samples.size());
         auto const at = [&](std::size_t i) {
             return q.samples.begin() + static_cast<std::ptrdiff_t>(i);
@@ -194,6 +213,7 @@ private:
     scenario_mapping const& s_;
     window_mapping const& w_;
     recorded_table const& table_;
+    std::vector<span> stretches_;
     import_protocol& protocol_;
     exact_decimal end_; ///< of what all inputs carry
 };

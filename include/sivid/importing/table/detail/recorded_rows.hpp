@@ -27,15 +27,18 @@ struct recorded_table {
     std::size_t first_line = 0, last_line = 0;
 };
 
-/// The columns that a scenario needs, in the order of recorded_table's cells: for the inputs, then
-/// the channels, the value's and, where the bound has one, the bound's.
+/// The columns that a scenario needs of its first file, in the order of recorded_table's cells: for
+/// the inputs, the channels and what is watched, the value's and, where the bound has one, the
+/// bound's; then that of the rows that windows are cut of.
 [[nodiscard]] inline std::vector<column_reference> columns_of(scenario_mapping const& s) {
     std::vector<column_reference> result;
-    for (auto const* list : {&s.inputs, &s.channels})
+    for (auto const* list : {&s.inputs, &s.channels, &s.watched})
         for (auto const& q : *list) {
-            result.push_back(q.column);
+            if (q.file != 0) continue;
+            for (auto const& share : q.columns) result.push_back(share.column);
             if (q.error.from == bound_source::kind::column) result.push_back(q.error.column);
         }
+    if (s.windows && s.windows->rows) result.push_back(s.windows->rows->column);
     return result;
 }
 
