@@ -39,8 +39,10 @@ public:
         result_.protocol.mapping = mapping_.file.filename().string();
         for (auto const& s : mapping_.scenarios) read(s);
         check_names();
-        for (auto const& s : mapping_.scenarios)
-            for (auto const& q : s.inputs) require_bridge(s, q, open_, result_.protocol);
+        for (auto const& s : mapping_.scenarios) {
+            require_bridges(s, open_, result_.protocol);
+            for (auto const& f : s.further) require_bridges(f, open_, result_.protocol);
+        }
         for (auto const& s : open_) propose(s.inputs, true);
         for (auto const& s : open_) propose(s.channels, false);
 

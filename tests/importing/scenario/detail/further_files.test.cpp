@@ -143,6 +143,33 @@ TEST_CASE("inputs of a second file are within what its clock leaves of their cou
     }
 }
 
+TEST_CASE("samples that an input of a second file lacks are refused, or bounded") {
+    std::mt19937_64 random{6};
+    recorded of(random);
+    std::string const first = "\n908000,", last = "\n908200,";
+    of.imu.erase(of.imu.find(first), of.imu.find(last) - of.imu.find(first));
+    auto text =
+        replaced(std::string{two_files}, "\"inputs\": { \"u\": { \"column\": \"duty\" } },", "");
+    text = replaced(text, "\"channels\": { \"w\"",
+                    "\"inputs\": { \"u\": { \"column\": \"copy\", \"error\": 0.01 } }, "
+                    "\"channels\": { \"w\"");
+    std::string const clock = R"({ "offset": [100.01, 100.02] })";
+    try {
+        (void)import_two(of, clock, text);
+        FAIL("a gap is bridged, and nobody has said how");
+    } catch (input_error const& e) {
+        CHECK_THAT(e.what(), ContainsSubstring("imu.csv: 10 samples of this input are missing"));
+    }
+    auto const r = import_two(of, clock,
+                              replaced(text, "\"copy\", ",
+                                       "\"copy\", \"bridge\": {\"longest\": 0.3, "
+                                       "\"error\": 0.5}, "));
+    auto const& u = r.data.scenarios.at(0).inputs.at(0);
+    std::size_t wide = 0;
+    for (double const e : u.error) wide += e > 0.5 ? 1 : 0; // with what the clock leaves
+    CHECK(wide == 2);
+}
+
 TEST_CASE("clocks that cannot be are refused, and slopes that are not stated") {
     std::mt19937_64 random{5};
     recorded const of(random);

@@ -14,6 +14,7 @@ open_scenario scenario_of(scenario_mapping const& s, std::vector<std::string> co
     o.stretch = "A";
     o.channels.emplace_back();
     o.channels[0].mapping = s.channels.data();
+    o.channels[0].from = &s;
     for (auto const& t : times) {
         imported_sample sample;
         sample.line = o.channels[0].samples.size() + 1;

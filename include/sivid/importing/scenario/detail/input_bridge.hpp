@@ -37,9 +37,6 @@ private:
     }
 };
 
-/// Where samples of an input are missing, nobody knows what it did there: the mapping has to allow
-/// what stands there, and the protocol says so.
-/// @throws input_error  where it does not
 inline void require_bridge(scenario_mapping const& s, quantity_mapping const& mapping,
                            std::vector<open_scenario> const& open, import_protocol& protocol) {
     missing_input const gaps{mapping, open};
@@ -69,6 +66,15 @@ inline void require_bridge(scenario_mapping const& s, quantity_mapping const& ma
         protocol.add(import_protocol::kind::assumed, o->stretch, mapping.name, words, line);
 }
 
+/// Where samples of an input of a file are missing, nobody knows what it did there: the mapping has
+/// to allow what stands there, and the protocol says so.
+/// @throws input_error  where it does not
+inline void require_bridges(scenario_mapping const& file, std::vector<open_scenario> const& open,
+                            import_protocol& protocol) {
+    for (auto const& q : file.inputs)
+        if (q.file == 0) require_bridge(file, q, open, protocol);
+}
+
 /// Puts what stands where samples are missing into the input of a data set: with a bound as part of
 /// its errors, otherwise as what is bridged.
 inline void bridge(open_scenario const& s, imported_quantity const& q, dataset_input& input) {
@@ -84,9 +90,10 @@ inline void bridge(open_scenario const& s, imported_quantity const& q, dataset_i
         // Between two samples the bound runs straight from one's to the other's, or holds.
         auto const last = s.mapping->between == interpolation::hold ? i - 1 : i;
         for (auto k = i - 1; k <= last; ++k) {
-            if (!(input.stated_error[k] < *bound)) continue;
-            input.stated_error[k] = *bound;
-            input.error[k] = upper(*enclose(*bound));
+            auto const there = *bound + q.samples[k].late;
+            if (!(input.stated_error[k] < there)) continue;
+            input.stated_error[k] = there;
+            input.error[k] = upper(*enclose(there));
         }
     }
 }

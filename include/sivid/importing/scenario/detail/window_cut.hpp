@@ -75,8 +75,7 @@ private:
 
     [[nodiscard]] std::vector<place> places() {
         end_ = whole_.duration;
-        for (auto const& q : whole_.inputs)
-            if (q.samples.back().time < end_) end_ = q.samples.back().time;
+        for (auto const& q : whole_.inputs) end_ = std::min(end_, q.samples.back().time - q.clock);
         std::vector<place> result;
         std::size_t number = 1;
         for (auto const& [begin, end] : stretches_)
