@@ -128,6 +128,19 @@ TEST_CASE("the worked example of a serial stream") {
     CHECK(read_dataset(folder.path() / "out", r.names).scenarios.size() == 2);
 }
 
+TEST_CASE("the worked example of two loggers") {
+    auto const r = example("two_loggers");
+    auto const& s = r.data.scenarios.at(0);
+    CHECK(s.duration == 3);
+    CHECK(s.measurements.size() == 151 + 300);
+    // The clock of the second one was drawn with -103.2371 s and 0.00012.
+    CHECK(has_note(r.protocol, "its clock: -103.234875 s are added"));
+    CHECK(has_note(r.protocol, "off by 0.00547 s at most"));
+    auto const text = r.protocol.text();
+    CHECK_THAT(text, ContainsSubstring("  dropped: imu.csv: w: outside [0, duration]"));
+    CHECK_THAT(text, !ContainsSubstring("became no scenario"));
+}
+
 TEST_CASE("docs/importing.md quotes what the examples give") {
     std::string const root{SIVID_SOURCE_DIR};
     auto const page = read_text(root + "/docs/importing.md");

@@ -107,7 +107,7 @@ TEST_CASE(
             // to write what is proved, which is then no more than that.
             if (fs::exists(out / "result.json")) {
                 CHECK(outcome(out).result["stop_reason"] == "cancelled");
-                auto const checked = run_alone({"check", out.string(), "--budget", "20"});
+                auto const checked = run_alone({"check", out.string(), "--budget", "5"});
                 CHECK((checked.code == 0 || checked.code == 3)); // nothing is refuted
             }
         }

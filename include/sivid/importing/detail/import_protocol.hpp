@@ -110,12 +110,11 @@ public:
                        (s.stretch.empty() ? "" : " from " + s.begin + " s") + "\n";
             else if (last)
                 out += "... and " + std::to_string(shown + 1 - most) + " more\n";
-            if (last)
-                append_notes(out, [&](std::string const& name) { return name == s.noted_as(); });
+            if (last) append_notes(out, [&](std::string const& name) { return is_of(name, s); });
         }
         auto const elsewhere = [&](std::string const& name) {
             return std::none_of(scenarios.begin(), scenarios.end(),
-                                [&](auto const& s) { return s.noted_as() == name; });
+                                [&](auto const& s) { return is_of(name, s); });
         };
         std::string rest;
         append_notes(rest, elsewhere);
@@ -171,6 +170,10 @@ public:
     }
 
 private:
+    /// Whether a note that names this is of the scenario, or of a further file of it.
+    static bool is_of(std::string const& name, scenario_summary const& s) {
+        return name == s.noted_as() || name.starts_with(s.noted_as() + " (");
+    }
     static std::string number(double x) { return rounded_digits(x).text(); }
     /// Three digits, to be read.
     static exact_decimal rounded_digits(double x) {
@@ -183,6 +186,8 @@ private:
         for (auto const& n : notes_) {
             if (!wanted(n.scenario)) continue;
             out += std::string{"  "} + word(n.what) + ": ";
+            if (auto const file = n.scenario.rfind(" ("); file != std::string::npos)
+                out += n.scenario.substr(file + 2, n.scenario.size() - file - 3) + ": ";
             if (!n.field.empty()) out += n.field + ": ";
             out += n.reason;
             if (!n.lines.empty()) {

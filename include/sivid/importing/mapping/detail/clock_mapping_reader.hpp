@@ -31,15 +31,15 @@ namespace sivid {
     if (same == nullptr) return clock;
     bool const slow = same->find("rate") != nullptr;
     same->allow_only({"here", "there", slow ? "rate" : "level"});
-    auto const signal = [&](char const* key) {
+    auto const recorded = [&](char const* key) {
         auto const& of = same->at(key);
         auto q = read_quantity_mapping(of, key, false);
         if (q.error.from == bound_source::kind::proposed || !q.clock.is_zero())
             of.fail("no bound of its error", "state \"error\" as a number, without \"time_error\"");
         return q;
     };
-    clock.here = signal("here");
-    there = signal("there");
+    clock.here = recorded("here");
+    there = recorded("there");
     if (slow)
         clock.rate = mapping_entries::positive(same->at("rate"),
                                                "state by how much it changes a second at most");

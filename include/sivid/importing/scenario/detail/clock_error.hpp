@@ -57,7 +57,8 @@ namespace sivid {
             slope = std::min(slope, here.upper());
         }
         if (!std::isfinite(slope))
-            return "two readings are needed, further apart than their times are off";
+            return text_of("its times are off by ", off.text(),
+                           " s at most, and two readings are needed that are further apart");
         all[k].late = rounded_up(exact_decimal::of((c * interval{slope}).upper()), 3);
     }
     return {};

@@ -63,7 +63,8 @@ inline void require_bridge(scenario_mapping const& s, quantity_mapping const& ma
                     ? text_of("and the input is within ", mapping.bridge_error->text(), " of that")
                     : std::string{"though nobody knows what the input did"});
     for (auto const& [o, line] : gaps.lines)
-        protocol.add(import_protocol::kind::assumed, o->stretch, mapping.name, words, line);
+        protocol.add(import_protocol::kind::assumed, s.clock ? s.name : o->stretch, mapping.name,
+                     words, line);
 }
 
 /// Where samples of an input of a file are missing, nobody knows what it did there: the mapping has

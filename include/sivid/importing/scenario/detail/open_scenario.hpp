@@ -70,7 +70,8 @@ private:
                  a.error == b.error);
     }
     void drop(imported_quantity const& q, std::size_t line, char const* why) {
-        protocol_.add(import_protocol::kind::dropped, s_.stretch, q.mapping->name, why, line);
+        protocol_.add(import_protocol::kind::dropped, q.noted_as(s_.stretch), q.mapping->name, why,
+                      line);
     }
     /// The last lines in which held inputs step at a time.
     void find_steps(exact_decimal const& offset) {

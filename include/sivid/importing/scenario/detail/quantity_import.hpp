@@ -40,6 +40,10 @@ struct imported_quantity {
     std::vector<imported_sample> samples;
     std::vector<imported_sample> before; ///< of a window: those of the record, for its start
 
+    /// What notes on its lines name: the stretch, or the further file that they are of.
+    [[nodiscard]] std::string const& noted_as(std::string const& stretch) const {
+        return from != nullptr && from->clock ? from->name : stretch;
+    }
     /// The stated bound of the sensor's error; of a proposed one nothing.
     [[nodiscard]] exact_decimal const& stated(imported_sample const& sample) const {
         return mapping->error.from == bound_source::kind::number ? mapping->error.number

@@ -340,8 +340,8 @@ private:
             if (wanted(sample.time))
                 kept.push_back(std::move(sample));
             else if (!s_.windows) // of windows that is said of all lines outside
-                protocol_.add(kind::dropped, name_, q.mapping->name, "outside [0, duration]",
-                              sample.line);
+                protocol_.add(kind::dropped, q.noted_as(name_), q.mapping->name,
+                              "outside [0, duration]", sample.line);
         }
         q.samples = std::move(kept);
     }
@@ -373,7 +373,7 @@ private:
             auto& sample = all[i + 1];
             sample.missing = std::max({sample.missing, missing[i], regular ? 0 : sample.lost});
             if (sample.missing == 0 && steps[i] > 5 * sorted[sorted.size() / 2])
-                protocol_.add(kind::assumed, name_, q.mapping->name,
+                protocol_.add(kind::assumed, q.noted_as(name_), q.mapping->name,
                               "more than five usual steps without a reading before this line: the "
                               "input stands as interpolated",
                               sample.line);
