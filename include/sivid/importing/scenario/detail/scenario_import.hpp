@@ -109,20 +109,8 @@ private:
         auto const begin = table.rows.front().time + own.offset,
                    end = table.rows.back().time + own.offset;
         auto const middle = (begin + end).times(half);
-        auto offset = c.offset, drift = c.drift;
-        if (c.here) {
-            auto const prior = [](auto const& ends) {
-                return hull(*enclose(ends.first), *enclose(ends.second));
-            };
-            auto const found =
-                search(shared(own.watched.front(), own.offset - middle),
-                       shared(of_first.watched[c.there], -middle), {prior(offset), prior(drift)});
-            auto const ends = [](interval const& x) {
-                return std::pair{exact_decimal::of(x.lower()), exact_decimal::of(x.upper())};
-            };
-            offset = ends(found.offset);
-            drift = ends(found.drift);
-        }
+        auto const [offset, drift] =
+            c.here ? found(own, of_first, middle) : std::pair{c.offset, c.drift};
         auto const centre = [](auto const& ends) {
             return exact_decimal::rounded(*nearest((ends.first + ends.second).times(half)), 12);
         };
@@ -132,6 +120,9 @@ private:
         auto const o = centre(offset), d = centre(drift);
         auto const within = apart(offset, o) + apart(drift, d).times((end - begin).times(half));
         auto const error = within.is_zero() ? within : rounded_up(within, 3);
+        if (!enclose(error))
+            throw input_error{c.place, "times of the file are beyond the range of double",
+                              "correct \"offset\" and \"drift\""};
         for (auto list : {&open_scenario::inputs, &open_scenario::channels})
             for (auto& q : own.content.*list) {
                 q.clock = error;
@@ -143,6 +134,22 @@ private:
         shift_times(own.content, of_first.offset, protocol_);
         tell_clock(o, d, error);
         return std::move(own.content);
+    }
+    using ends = std::pair<exact_decimal, exact_decimal>;
+    /// What the signal that both files recorded leaves of offset and drift.
+    [[nodiscard]] std::pair<ends, ends> found(own_part const& own, own_part const& of_first,
+                                              exact_decimal const& middle) const {
+        auto const& c = *s_.clock;
+        auto const prior = [](ends const& x) {
+            return hull(*enclose(x.first), *enclose(x.second));
+        };
+        auto const left =
+            search(shared(own.watched.front(), own.offset - middle),
+                   shared(of_first.watched[c.there], -middle), {prior(c.offset), prior(c.drift)});
+        auto const of = [](interval const& x) {
+            return ends{exact_decimal::of(x.lower()), exact_decimal::of(x.upper())};
+        };
+        return {of(left.offset), of(left.drift)};
     }
     void tell_clock(exact_decimal const& offset, exact_decimal const& drift,
                     exact_decimal const& within) {
@@ -158,7 +165,7 @@ private:
                                   " s at most, after that: what this may add is in the bounds"));
         protocol_.add(
             kind::assumed, name_, "",
-            text_of("offset and drift of its clock are as stated",
+            text_of("offset and drift of its clock are within what is stated",
                     !c.here  ? ""
                     : c.rate ? ", and both files recorded one signal, within its errors, "
                                "which changes by " +
@@ -175,9 +182,11 @@ private:
         for (auto const& sample : q.samples) {
             auto const error = q.stated(sample) + sample.reading.rounding;
             auto const value = enclose(sample.reading.value - error, sample.reading.value + error);
-            if (!value)
-                fail(sample.line, "the value is beyond the range of double", "check its factor");
-            result.push_back({*enclose(sample.time + move), *value});
+            auto const time = enclose(sample.time + move);
+            if (!value || !time)
+                fail(sample.line, "time or value is beyond the range of double",
+                     "check the units, factors and offsets");
+            result.push_back({*time, *value});
         }
         return result;
     }
