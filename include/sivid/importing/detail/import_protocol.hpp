@@ -172,7 +172,7 @@ public:
 private:
     /// Whether a note that names this is of the scenario, or of a further file of it.
     static bool is_of(std::string const& name, scenario_summary const& s) {
-        return name == s.noted_as() || name.starts_with(s.noted_as() + " (");
+        return name == s.noted_as() || name.starts_with(s.noted_as() + "/");
     }
     static std::string number(double x) { return rounded_digits(x).text(); }
     /// Three digits, to be read.
@@ -186,8 +186,8 @@ private:
         for (auto const& n : notes_) {
             if (!wanted(n.scenario)) continue;
             out += std::string{"  "} + word(n.what) + ": ";
-            if (auto const file = n.scenario.rfind(" ("); file != std::string::npos)
-                out += n.scenario.substr(file + 2, n.scenario.size() - file - 3) + ": ";
+            if (auto const slash = n.scenario.find('/'); slash != std::string::npos)
+                out += n.scenario.substr(slash + 1) + ": ";
             if (!n.field.empty()) out += n.field + ": ";
             out += n.reason;
             if (!n.lines.empty()) {

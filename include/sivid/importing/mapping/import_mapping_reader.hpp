@@ -162,7 +162,7 @@ private:
         scenario_mapping f;
         f.place = entry.place();
         read_file(entry.at("file"), entry.find("source"), entry.at("time"), f);
-        f.name = text_of(scenario.name, " (", f.file.filename().string(), ")");
+        f.name = text_of(scenario.name, "/", f.file.filename().string());
         f.between = scenario.between;
         if (f.form.gap == break_policy::split || f.form.restart == break_policy::split)
             entry.at("source").fail("a further file is not split", "write refuse, keep or drop");

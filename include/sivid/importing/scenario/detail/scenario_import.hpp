@@ -211,7 +211,8 @@ private:
                                      char const* remedy) {
             if (!why.empty())
                 throw input_error{
-                    {.file = q.from->file.string(), .line = q.samples.back().line},
+                    {.file = q.from->file.string(),
+                     .line = q.samples.empty() ? 0 : q.samples.back().line},
                     text_of("the error of the time of ", in_quotes(q.mapping->name), ": ", why),
                     remedy};
         };
