@@ -109,10 +109,16 @@ TEST_CASE("windows lie where a column is in a range") {
         }
         return result;
     };
-    // The one missing reading of the motor ends a stretch.
-    CHECK(cut("") == std::vector<std::string>{"w1:20-29", "w2:30-39", "w3:40-50"});
+    // Where there is no reading of the motor, it is as before.
+    CHECK(cut("") ==
+          std::vector<std::string>{"w1:20-29", "w2:30-39", "w3:40-50", "w4:80-89", "w5:90-100"});
     CHECK(cut(R"(, "first": 0.05, "every": 0.15)") ==
-          std::vector<std::string>{"w1:25-35", "w2:40-50"});
+          std::vector<std::string>{"w1:25-35", "w2:40-50", "w3:85-95"});
+    auto const r = import_csv(mapping(R"("windows": { "length": 0.1, "while": {"column": "motor",
+                                         "within": [0, 0.5]} })"),
+                              table);
+    CHECK(noted(r.protocol, "holds where it did in the row before") ==
+          std::vector<std::size_t>{92});
     CHECK_THAT(refusal(mapping(R"("windows": { "length": 0.4, "while": {"column": "motor",
                                    "within": [0, 0.5]} })"),
                        table),

@@ -66,6 +66,7 @@ public:
 
 private:
     using kind = import_protocol::kind;
+    using ends = std::pair<exact_decimal, exact_decimal>;
     /// What a file holds, by its own clock.
     struct own_part {
         open_scenario content;
@@ -111,11 +112,11 @@ private:
         auto const middle = (begin + end).times(half);
         auto const [offset, drift] =
             c.here ? found(own, of_first, middle) : std::pair{c.offset, c.drift};
-        auto const centre = [](auto const& ends) {
-            return exact_decimal::rounded(*nearest((ends.first + ends.second).times(half)), 12);
+        auto const centre = [](ends const& x) {
+            return exact_decimal::rounded(*nearest((x.first + x.second).times(half)), 12);
         };
-        auto const apart = [](auto const& ends, exact_decimal const& from) {
-            return std::max(magnitude(ends.first - from), magnitude(ends.second - from));
+        auto const apart = [](ends const& x, exact_decimal const& from) {
+            return std::max(magnitude(x.first - from), magnitude(x.second - from));
         };
         auto const o = centre(offset), d = centre(drift);
         auto const within = apart(offset, o) + apart(drift, d).times((end - begin).times(half));
@@ -135,7 +136,6 @@ private:
         tell_clock(o, d, error);
         return std::move(own.content);
     }
-    using ends = std::pair<exact_decimal, exact_decimal>;
     /// What the signal that both files recorded leaves of offset and drift.
     [[nodiscard]] std::pair<ends, ends> found(own_part const& own, own_part const& of_first,
                                               exact_decimal const& middle) const {
@@ -223,22 +223,27 @@ private:
                          "state an error, or import the file that holds it as the first one");
     }
 
-    /// Where the rows are those that windows are cut of; else all of it.
+    /// Where the rows are those that windows are cut of, a row without a reading as the one before;
+    /// else all of it.
     [[nodiscard]] std::vector<window_cut::span> stretches(recorded_table const& table,
                                                           exact_decimal const& offset,
                                                           exact_decimal const& duration) {
         if (!s_.windows->rows) return {{exact_decimal{}, duration}};
         auto const& within = s_.windows->rows->within;
         std::vector<window_cut::span> result;
-        bool going = false;
+        bool is = false, going = false;
         for (auto const& row : table.rows) {
-            auto const& cell = row.cells.back();
             auto const time = row.time + offset;
-            bool const is =
-                cell && !(*cell < within.first) && !(within.second < *cell) && !time.is_negative();
-            if (is && !going) result.emplace_back(time, time);
-            if (is) result.back().second = time;
-            going = is;
+            if (auto const& cell = row.cells.back(); !cell)
+                protocol_.add(kind::assumed, name_, "",
+                              "\"while\" holds where it did in the row before: no reading",
+                              row.line);
+            else
+                is = !(*cell < within.first) && !(within.second < *cell);
+            bool const here = is && !time.is_negative();
+            if (here && !going) result.emplace_back(time, time);
+            if (here) result.back().second = time;
+            going = here;
         }
         protocol_.add(kind::changed, name_, "",
                       text_of("windows lie where \"while\" holds: in ",
