@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // One identification on several ranks: mpirun -n 4 several_ranks
-#include <sivid/cluster/identify.hpp>
 #include <sivid/cluster/mpi_world.hpp>
 #include <sivid/number/decimal_output.hpp>
 
@@ -33,10 +32,7 @@ int main(int argc, char** argv) {
         record_model<cooling>(), {{"k"}, {}}, {hull(0.1_dec, 2_dec)}, {cup}};
     identify_options const options;
     cluster::mpi_world world(argc, argv);
-    if (world.rank() == 0) {
-        auto const found = cluster::identify(world.others(), problem, options);
-        std::cout << to_string(found.verdict) << ": k in " << to_string(found.hull[0]) << '\n';
-    } else {
-        cluster::help_identify(world.others(), problem, options);
-    }
+    cluster::traffic spent;
+    if (auto const found = world.identify(problem, options, "", spent)) // on rank 0
+        std::cout << to_string(found->verdict) << ": k in " << to_string(found->hull[0]) << '\n';
 }

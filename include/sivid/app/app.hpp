@@ -5,7 +5,7 @@
 #include <sivid/app/console.hpp>
 #include <sivid/app/outputs.hpp>
 #include <sivid/app/robot.hpp>
-#include <sivid/cluster/job_start.hpp>
+#include <sivid/cluster/job.hpp>
 #include <sivid/compiled.hpp>
 #if defined(SIVID_HAS_MPI) && !defined(SIVID_LIBRARY) // libsivid has no MPI
 #define SIVID_APP_BY_MPI

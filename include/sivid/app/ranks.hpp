@@ -5,7 +5,6 @@
 #include <sivid/app/console.hpp>
 #include <sivid/app/program.hpp>
 #include <sivid/cluster/job.hpp>
-#include <sivid/cluster/job_start.hpp>
 
 #include <chrono>
 #include <csignal>

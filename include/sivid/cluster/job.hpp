@@ -9,6 +9,7 @@
 #include <sivid/paving/identify.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ public:
     diagnose(identification_problem const& problem, std::vector<effect> const& catalogue,
              diagnosis_options const& options, std::string const& also) = 0;
 };
+
+/// Joins the job in which this process was started; nothing where it was started alone.
+using job_start = std::unique_ptr<job> (*)(int& argc, char**& argv);
 
 } // namespace sivid::cluster
 

@@ -2,7 +2,7 @@
 #ifndef SIVID_CLUSTER_MPI_JOB_HPP
 #define SIVID_CLUSTER_MPI_JOB_HPP
 
-#include <sivid/cluster/job_start.hpp>
+#include <sivid/cluster/job.hpp>
 #include <sivid/compiled.hpp>
 
 #include <memory>

@@ -2,6 +2,9 @@
 #ifndef SIVID_CLUSTER_MPI_WORLD_HPP
 #define SIVID_CLUSTER_MPI_WORLD_HPP
 
+#include <sivid/cluster/diagnose.hpp>
+#include <sivid/cluster/identify.hpp>
+#include <sivid/cluster/job.hpp>
 #include <sivid/cluster/transport.hpp>
 
 #include <cstddef>
@@ -11,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <boost/mpi/communicator.hpp>
 #include <boost/mpi/environment.hpp>
@@ -23,10 +27,9 @@ namespace sivid::cluster {
 
 /// The ranks of an MPI job: rank 0 writes to all others, these to rank 0.
 ///   cluster::mpi_world world(argc, argv);
-///   if (world.rank() == 0) found = cluster::identify(world.others(), problem, options);
-///   else cluster::help_identify(world.others(), problem, options);
+///   auto const found = world.identify(problem, options, {}, spent); // of rank 0 alone
 /// One for a program. Only the thread that made it uses it.
-class mpi_world {
+class mpi_world final : public job {
     class mail final : public transport {
     public:
         explicit mail(boost::mpi::communicator const& ranks) : ranks_(ranks) {}
@@ -77,14 +80,33 @@ public:
         return false;
     }
 
-    [[nodiscard]] std::size_t rank() const { return static_cast<std::size_t>(ranks_.rank()); }
-    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(ranks_.size()); }
-    /// For rank 0 all others, for these rank 0.
-    [[nodiscard]] transport& others() { return *mail_; }
-    /// Ends all ranks.
-    [[noreturn]] static void end_all(int code) {
+    [[nodiscard]] std::size_t rank() const override {
+        return static_cast<std::size_t>(ranks_.rank());
+    }
+    [[nodiscard]] std::size_t size() const override {
+        return static_cast<std::size_t>(ranks_.size());
+    }
+    [[nodiscard]] transport& others() override { return *mail_; }
+    [[noreturn]] void end_all(int code) override {
         boost::mpi::environment::abort(code);
         std::_Exit(code);
+    }
+
+    [[nodiscard]] std::optional<identification> identify(identification_problem const& problem,
+                                                         identify_options const& options,
+                                                         std::string const& also,
+                                                         traffic& spent) override {
+        if (rank() == 0) return cluster::identify(others(), problem, options, also, &spent);
+        help_identify(others(), problem, options, also);
+        return std::nullopt;
+    }
+    [[nodiscard]] std::optional<diagnosis_run> diagnose(identification_problem const& problem,
+                                                        std::vector<effect> const& catalogue,
+                                                        diagnosis_options const& options,
+                                                        std::string const& also) override {
+        if (rank() == 0) return cluster::diagnose(others(), problem, catalogue, options, also);
+        help_diagnose(others(), problem, catalogue, also);
+        return std::nullopt;
     }
 
 private:

@@ -68,7 +68,7 @@ struct quantity_mapping {
     exact_decimal clock, slope;
     bool curved = false;
     exact_decimal model_error; ///< channels only: joins the bound of all readings, not of starts
-    std::size_t file = 0;      ///< of the scenario: 0 the first one, k the k-th further one
+    bool elsewhere = false;    ///< in a further file, whose mapping has it, too
     input_place place;
 };
 

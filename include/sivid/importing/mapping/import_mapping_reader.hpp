@@ -125,7 +125,11 @@ private:
         auto const& channels = further != nullptr && either(entry, "channels") == nullptr
                                    ? *further
                                    : need(entry, "channels");
-        if (&channels != further) result.channels = quantities(channels, false);
+        if (&channels != further) {
+            result.channels = quantities(channels, false);
+            for (auto const& q : channels.members())
+                if (auto const* e = q.find("time_error")) (void)e->at("within");
+        }
         if (further != nullptr)
             for (auto const& file : further->elements()) add_further(file, result);
         if (result.channels.empty())
@@ -175,13 +179,13 @@ private:
                               std::vector<quantity_mapping> scenario_mapping::*to) {
             auto const* list = entry.find(key);
             if (list == nullptr) return;
-            f.*to = quantities(*list, to == &scenario_mapping::inputs, true);
+            f.*to = quantities(*list, to == &scenario_mapping::inputs);
             for (auto q : f.*to) {
                 for (auto const& other : scenario.*to)
                     if (other.name == q.name)
                         list->fail(text_of(in_quotes(q.name), " stands in two files"),
                                    "keep one of them");
-                q.file = scenario.further.size() + 1;
+                q.elsewhere = true;
                 (scenario.*to).push_back(std::move(q));
             }
         };
@@ -192,12 +196,11 @@ private:
         scenario.further.push_back(std::move(f));
     }
 
-    static std::vector<quantity_mapping> quantities(json_value const& list, bool inputs,
-                                                    bool further = false) {
+    static std::vector<quantity_mapping> quantities(json_value const& list, bool inputs) {
         std::vector<quantity_mapping> result;
         for (std::size_t i = 0; i < list.members().size(); ++i) {
             auto const& entry = list.members()[i];
-            auto q = read_quantity_mapping(entry, list.name_of(i), inputs, further);
+            auto q = read_quantity_mapping(entry, list.name_of(i), inputs);
             for (auto const& other : result)
                 if (other.name == q.name + "_err" || q.name == other.name + "_err")
                     entry.fail(text_of("the name ", in_quotes(q.name), " and ",

@@ -194,6 +194,9 @@ TEST_CASE("clocks that cannot be are refused, and slopes that are not stated") {
         R"({ "offset": [100, 100.1] })", "is not stated", // nor any reading
         replaced(replaced(std::string{two_files}, ", \"time_error\": {\"acceleration\": 9}", ""),
                  "\"error\": 0.02", "\"error\": 0.02, \"range\": [900, 901]")));
+    CHECK(refused(R"({ "offset": 100 })", "time_error: the key 'within' is missing",
+                  replaced(std::string{two_files}, "\"encoder\",",
+                           "\"encoder\", \"time_error\": {\"rate\": 3},")));
     CHECK(refused(R"({ "drift": 0 })", "/clock/offset"));
     CHECK(refused(R"({ "offset": 100, "same": { "here": {"column": "copy", "error": "propose"},
                        "there": {"column": "encoder", "error": 1}, "level": 0 } })",

@@ -34,7 +34,7 @@ namespace sivid {
     auto const recorded = [&](char const* key) {
         auto const& of = same->at(key);
         auto q = read_quantity_mapping(of, key, false);
-        if (q.error.from == bound_source::kind::proposed || !q.clock.is_zero())
+        if (q.error.from == bound_source::kind::proposed || !q.slope.is_zero())
             of.fail("no bound of its error", "state \"error\" as a number, without \"time_error\"");
         return q;
     };

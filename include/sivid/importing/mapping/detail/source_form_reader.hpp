@@ -279,8 +279,7 @@ inline void read_bound(json_value const& entry, bool input, quantity_mapping& q)
 
 /// "time_error" and "model_error" of a channel.
 /// @throws input_error
-inline void read_further_errors(json_value const& entry, bool input, bool further,
-                                quantity_mapping& q) {
+inline void read_further_errors(json_value const& entry, bool input, quantity_mapping& q) {
     using namespace mapping_entries;
     for (auto const* key : {"time_error", "model_error"})
         if (auto const* e = entry.find(key); e != nullptr && input)
@@ -290,8 +289,7 @@ inline void read_further_errors(json_value const& entry, bool input, bool furthe
     auto const* e = entry.find("time_error");
     if (e == nullptr) return;
     e->allow_only({"within", "rate", "acceleration"});
-    // Of a further file the import knows how far off its clock may be.
-    if (auto const* within = further ? e->find("within") : &e->at("within"))
+    if (auto const* within = e->find("within")) // a further file's clock may say it
         q.clock = positive(*within, "state how far off a time may be, in seconds");
     q.curved = e->find("rate") == nullptr;
     if (!q.curved && e->find("acceleration") != nullptr)
@@ -303,11 +301,9 @@ inline void read_further_errors(json_value const& entry, bool input, bool furthe
 }
 
 /// An entry of "inputs" or "channels".
-/// @param further  it stands in a further file
 /// @throws input_error
 [[nodiscard]] inline quantity_mapping read_quantity_mapping(json_value const& entry,
-                                                            std::string const& name, bool input,
-                                                            bool further = false) {
+                                                            std::string const& name, bool input) {
     using namespace mapping_entries;
     entry.allow_only({"column", "unit", "factor", "divisor", "offset", "counter_bits",
                       "signed_bits", "period", "range", "error", "bridge", "time_error",
@@ -357,7 +353,7 @@ inline void read_further_errors(json_value const& entry, bool input, bool furthe
         q.range.emplace(ends.lower, ends.upper);
     }
     read_bound(entry, input, q);
-    read_further_errors(entry, input, further, q);
+    read_further_errors(entry, input, q);
     return q;
 }
 

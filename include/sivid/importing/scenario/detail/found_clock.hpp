@@ -37,17 +37,18 @@ public:
     /// The signal changes by so much a second at most.
     clock_search(std::vector<shared_reading> const& here, std::vector<shared_reading> const& there,
                  clock_range const& prior, double rate) {
-        auto const candidates = thinned(there, prior, here);
+        auto const near = beside(here, there, prior);
+        auto const candidates = evenly(near, most_beside);
         for (auto const* r : evenly(here, most_looks)) {
             never_.emplace_back();
-            for (auto const& q : candidates) {
-                // |value - q.value| <= rate |time - q.time| at the time of the reading
-                double const gap = std::max((interval{r->value.lower()} - q.value).lower(),
-                                            (interval{q.value.lower()} - r->value).lower());
+            for (auto const* q : candidates) {
+                // |value - q's| <= rate |time - q's| at the time of the reading
+                double const gap = std::max((interval{r->value.lower()} - q->value).lower(),
+                                            (interval{q->value.lower()} - r->value).lower());
                 if (!(gap > 0)) continue;
                 double const apart = (interval{gap} / interval{rate}).lower();
-                add(never_.back(), (interval{q.time.upper()} - interval{apart}).upper(),
-                    (interval{q.time.lower()} + interval{apart}).lower());
+                add(never_.back(), (interval{q->time.upper()} - interval{apart}).upper(),
+                    (interval{q->time.lower()} + interval{apart}).lower());
             }
             joined(never_.back());
             looks_.push_back({r->time, &never_.back()});
@@ -83,8 +84,10 @@ public:
     }
 
 private:
+    // Of longer records some readings are taken: four million pairs are a tenth of a second. Parts
+    // of a 32nd leave the hull that much too wide, of which the next round begins.
     static constexpr std::size_t most_looks = 1000, most_beside = 4000;
-    static constexpr double finest = 1.0 / 32; ///< share of a side that is not halved again
+    static constexpr double finest = 1.0 / 32;
     using times = std::vector<interval>;
 
     struct look {
@@ -115,18 +118,15 @@ private:
         return result;
     }
     /// Those of the other file that may be beside a reading.
-    static std::vector<shared_reading> thinned(std::vector<shared_reading> const& all,
-                                               clock_range const& prior,
-                                               std::vector<shared_reading> const& here) {
+    static std::vector<shared_reading> beside(std::vector<shared_reading> const& here,
+                                              std::vector<shared_reading> const& there,
+                                              clock_range const& prior) {
         std::vector<shared_reading> near;
         if (here.empty()) return near;
-        auto const first = shown(here.front().time, prior), last = shown(here.back().time, prior);
-        for (auto const& r : all)
-            if (r.time.upper() >= first.lower() && r.time.lower() <= last.upper())
-                near.push_back(r);
-        std::vector<shared_reading> result;
-        for (auto const* r : evenly(near, most_beside)) result.push_back(*r);
-        return result;
+        auto const span = hull(shown(here.front().time, prior), shown(here.back().time, prior));
+        for (auto const& r : there)
+            if (overlap(r.time, span)) near.push_back(r);
+        return near;
     }
     /// From the first to the last of readings that follow each other on one side of the level.
     static std::vector<std::pair<interval, interval>> runs(std::vector<shared_reading> const& all,

@@ -73,7 +73,7 @@ inline void require_bridge(scenario_mapping const& s, quantity_mapping const& ma
 inline void require_bridges(scenario_mapping const& file, std::vector<open_scenario> const& open,
                             import_protocol& protocol) {
     for (auto const& q : file.inputs)
-        if (q.file == 0) require_bridge(file, q, open, protocol);
+        if (!q.elsewhere) require_bridge(file, q, open, protocol);
 }
 
 /// Puts what stands where samples are missing into the input of a data set: with a bound as part of

@@ -87,7 +87,7 @@ private:
         auto const add = [&](std::vector<quantity_mapping> const& from,
                              std::vector<imported_quantity>& to) {
             for (auto const& q : from)
-                if (q.file == 0)
+                if (!q.elsewhere)
                     to.push_back(quantity_import{s_, q, name_, protocol_}.read(table, cell));
         };
         add(s_.inputs, whole.inputs);

@@ -34,7 +34,7 @@ struct recorded_table {
     std::vector<column_reference> result;
     for (auto const* list : {&s.inputs, &s.channels, &s.watched})
         for (auto const& q : *list) {
-            if (q.file != 0) continue;
+            if (q.elsewhere) continue;
             for (auto const& share : q.columns) result.push_back(share.column);
             if (q.error.from == bound_source::kind::column) result.push_back(q.error.column);
         }
