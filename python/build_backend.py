@@ -44,21 +44,35 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     return _packed(Path(wheel_directory), files)
 
 
-def _packed(folder, files):
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Without it pip would compile the module while it says that it prepares metadata."""
+    _, about, files = _about()
+    (Path(metadata_directory) / about).mkdir()
+    for name, content in files.items():
+        (Path(metadata_directory) / name).write_bytes(content)
+    return about
+
+
+def _about():
     heading = (ROOT / "include/sivid/version.hpp").read_text()
     version = ".".join(re.findall(r"#define SIVID_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", heading))
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     tag = f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
     about = f"sivid-{version}.dist-info"
-    files[f"{about}/METADATA"] = (
+    metadata = (
         f"Metadata-Version: 2.1\nName: sivid\nVersion: {version}\nLicense: MIT\nRequires-Python: >=3.10\n"
         "Summary: Which parameters of a dynamic model can explain recorded data, with proof\n"
         "Requires-Dist: numpy\nProvides-Extra: plots\nRequires-Dist: matplotlib; extra == 'plots'\n"
     ).encode()
-    files[f"{about}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: sivid\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
+    wheel = f"Wheel-Version: 1.0\nGenerator: sivid\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
+    return f"sivid-{version}-{tag}.whl", about, {f"{about}/METADATA": metadata, f"{about}/WHEEL": wheel}
+
+
+def _packed(folder, files):
+    name, about, further = _about()
+    files.update(further)
     record = [f"{name},sha256={_digest(content)},{len(content)}" for name, content in files.items()]
     files[f"{about}/RECORD"] = "\n".join([*record, f"{about}/RECORD,,", ""]).encode()
-    name = f"sivid-{version}-{tag}.whl"
     with zipfile.ZipFile(folder / name, "w", zipfile.ZIP_DEFLATED) as wheel:
         for file, content in files.items():
             wheel.writestr(file, content)

@@ -19,6 +19,9 @@ class Wheel(Case):
             wheel.extractall(self.folder / "site")
             record = wheel.read(next(n for n in wheel.namelist() if n.endswith("RECORD"))).decode()
             self.assertEqual(sorted(row.split(",")[0] for row in record.split()), sorted(wheel.namelist()))
+            about = build_backend.prepare_metadata_for_build_wheel(self.folder)
+            for file in (self.folder / about).iterdir():
+                self.assertEqual(wheel.read(f"{about}/{file.name}"), file.read_bytes())
         for file in ("py.typed", "_core.pyi", "tracing.py"):
             self.assertTrue((self.folder / "site/sivid" / file).is_file())
         seen = subprocess.run(
