@@ -43,7 +43,7 @@ class Sivid(ConanFile):
             self.requires("onetbb/[>=2021]", transitive_headers=True)
 
     def package_id(self):
-        if not self.options.library:
+        if not self.info.options.library:
             self.info.settings.clear()   # headers
 
     def validate(self):
@@ -57,7 +57,7 @@ class Sivid(ConanFile):
     def generate(self):
         CMakeDeps(self).generate()
         toolchain = CMakeToolchain(self)
-        for name in "SIVID_BUILD_TESTS", "SIVID_BUILD_EXAMPLES", "SIVID_BUILD_BENCHMARKS":
+        for name in "SIVID_BUILD_TESTS", "SIVID_BUILD_EXAMPLES", "SIVID_BUILD_BENCHMARKS", "SIVID_BUILD_PYTHON":
             toolchain.cache_variables[name] = False
         toolchain.cache_variables["SIVID_LIBRARY"] = bool(self.options.library)
         for name in "SIVID_WITH_MATIO", "SIVID_WITH_URDF", "SIVID_WITH_EXPAT", "SIVID_WITH_TOML":

@@ -34,6 +34,7 @@ vcpkg_cmake_configure(
         -DSIVID_BUILD_TESTS=OFF
         -DSIVID_BUILD_EXAMPLES=OFF
         -DSIVID_BUILD_BENCHMARKS=OFF
+        -DSIVID_BUILD_PYTHON=OFF
         -DSIVID_INSTALL=ON
         ${options}
     MAYBE_UNUSED_VARIABLES
