@@ -15,9 +15,15 @@
 
 namespace sivid {
 
-/// What one clock shows at time t of another: t + offset + drift t.
+/// One clock shows t + offset + drift t at time t of another, |t| <= ahead.
+struct clock_prior {
+    interval offset, drift, ahead;
+};
+/// What one clock is before the other at the first and at the last time; a line is between them.
+/// What two signals tell of these two is a box, almost: events at the begin tell of one, those at
+/// the end of the other.
 struct clock_range {
-    interval offset, drift;
+    interval first, last;
 };
 
 /// A reading of what two files recorded, with its error.
@@ -26,17 +32,17 @@ struct shared_reading {
 };
 
 /// Finds how two clocks stand to each other by a signal that both files recorded: set inversion in
-/// offset and drift. For each reading at time t there are times of the other clock at which the
-/// signal, as the other file tells it, cannot have had its value; t + offset + drift t is none of
-/// them.
-/// @guarantee  the range found holds each offset and drift of the prior with which both files tell
-///             the same, if no reading is beyond its error and the signal is as stated
+/// what one is before the other at both ends. For each reading at time t there are times of the
+/// other clock at which the signal, as the other file tells it, cannot have had its value;
+/// t + offset + drift t is none of them.
+/// @guarantee  the range found is that of each offset and drift of the prior with which both files
+///             tell the same, if no reading is beyond its error and the signal is as stated
 /// @cost  O(readings^2), of some thousand that are taken evenly out of longer records
 class clock_search {
 public:
     /// The signal changes by so much a second at most.
     clock_search(std::vector<shared_reading> const& here, std::vector<shared_reading> const& there,
-                 clock_range const& prior, double rate) {
+                 clock_prior const& prior, double rate) {
         auto const near = beside(here, there, prior);
         auto const candidates = evenly(near, most_beside);
         for (auto const* r : evenly(here, most_looks)) {
@@ -71,12 +77,13 @@ public:
     }
 
     /// @returns nothing where no offset and drift of the prior will do
-    [[nodiscard]] std::optional<clock_range> operator()(clock_range range) const {
+    [[nodiscard]] std::optional<clock_range> operator()(clock_prior const& prior) const {
+        auto const moved = prior.drift * prior.ahead;
+        clock_range range{prior.offset - moved, prior.offset + moved};
         for (int round = 0; round < 40; ++round) {
-            auto const next = covered(range);
+            auto const next = covered(range, prior);
             if (!next) return std::nullopt;
-            bool const much = width(next->offset) < 0.8 * width(range.offset) ||
-                              width(next->drift) < 0.8 * width(range.drift);
+            bool const much = narrower(*next, range, 0.8);
             range = *next;
             if (!much) break;
         }
@@ -120,10 +127,12 @@ private:
     /// Those of the other file that may be beside a reading.
     static std::vector<shared_reading> beside(std::vector<shared_reading> const& here,
                                               std::vector<shared_reading> const& there,
-                                              clock_range const& prior) {
+                                              clock_prior const& prior) {
         std::vector<shared_reading> near;
         if (here.empty()) return near;
-        auto const span = hull(shown(here.front().time, prior), shown(here.back().time, prior));
+        auto const apart =
+            prior.offset + prior.drift * interval(-prior.ahead.upper(), prior.ahead.upper());
+        auto const span = hull(here.front().time, here.back().time) + apart;
         for (auto const& r : there)
             if (overlap(r.time, span)) near.push_back(r);
         return near;
@@ -142,8 +151,9 @@ private:
         return result;
     }
 
-    static interval shown(interval const& t, clock_range const& c) {
-        return t + c.offset + c.drift * t;
+    static bool narrower(clock_range const& x, clock_range const& than, double share) {
+        return width(x.first) < share * width(than.first) ||
+               width(x.last) < share * width(than.last);
     }
 
     /// Takes from both ends of what a clock may show what it never does; false: nothing is left.
@@ -162,23 +172,35 @@ private:
         shown = interval(low, high);
         return true;
     }
-    [[nodiscard]] bool contract(clock_range& c) const {
+    [[nodiscard]] bool contract(clock_range& c, clock_prior const& prior) const {
         for (int round = 0; round < 20; ++round) {
             auto const before = c;
-            for (auto const& l : looks_) {
-                auto time = shown(l.time, c);
-                auto const all = time;
-                if (!cut(time, *l.never)) return false;
-                if (time.lower() == all.lower() && time.upper() == all.upper()) continue;
-                if (!meet(c.offset, time - l.time - c.drift * l.time)) return false;
-                if (l.time.lower() > 0 || l.time.upper() < 0)
-                    if (!meet(c.drift, (time - l.time - c.offset) / l.time)) return false;
-            }
-            bool const much = width(c.offset) < 0.95 * width(before.offset) ||
-                              width(c.drift) < 0.95 * width(before.drift);
-            if (!much) break;
+            if (!as_stated(c, prior)) return false;
+            for (auto const& l : looks_)
+                if (!as_seen(c, l, prior.ahead)) return false;
+            if (!narrower(c, before, 0.95)) break;
         }
         return true;
+    }
+    /// first + last = 2 offset, last - first = 2 ahead drift.
+    static bool as_stated(clock_range& c, clock_prior const& prior) {
+        auto const sum = interval(2.0) * prior.offset;
+        auto const difference = interval(2.0) * prior.ahead * prior.drift;
+        return meet(c.first, sum - c.last) && meet(c.last, sum - c.first) &&
+               meet(c.first, c.last - difference) && meet(c.last, c.first + difference);
+    }
+    /// The other clock never shows what the look excludes.
+    static bool as_seen(clock_range& c, look const& l, interval const& ahead) {
+        bool const line = ahead.lower() > 0;
+        interval const half(0.5), part = line ? l.time / ahead * half : -half;
+        auto const early = half - part, late = half + part; // shares of first and of last
+        auto const all = l.time + early * c.first + late * c.last;
+        auto shown = all;
+        if (!cut(shown, *l.never)) return false;
+        if (shown.lower() == all.lower() && shown.upper() == all.upper()) return true;
+        auto const before = shown - l.time;
+        if (early.lower() > 0 && !meet(c.first, (before - late * c.last) / early)) return false;
+        return !(late.lower() > 0) || meet(c.last, (before - early * c.first) / late);
     }
     static bool meet(interval& x, interval const& y) {
         double const low = std::max(x.lower(), y.lower()), high = std::min(x.upper(), y.upper());
@@ -188,31 +210,30 @@ private:
     }
 
     /// The hull of what is left of the parts of a range.
-    [[nodiscard]] std::optional<clock_range> covered(clock_range const& whole) const {
+    [[nodiscard]] std::optional<clock_range> covered(clock_range const& whole,
+                                                     clock_prior const& prior) const {
         std::optional<clock_range> result;
-        auto const share = [](interval const& x, interval const& of) {
-            return width(of) > 0 ? width(x) / width(of) : 0.0;
-        };
+        double const least = finest * std::max(width(whole.first), width(whole.last));
         std::vector<clock_range> open{whole};
         while (!open.empty()) {
             auto c = open.back();
             open.pop_back();
-            if (!contract(c)) continue;
-            if (result && subset(c.offset, result->offset) && subset(c.drift, result->drift))
-                continue;
-            double const a = share(c.offset, whole.offset), b = share(c.drift, whole.drift);
-            auto& side = a > b ? c.offset : c.drift;
-            double const middle = mid(side);
-            if (std::max(a, b) > finest && side.lower() < middle && middle < side.upper()) {
+            if (!contract(c, prior)) continue;
+            if (result && subset(c.first, result->first) && subset(c.last, result->last)) continue;
+            auto const side =
+                width(c.first) > width(c.last) ? &clock_range::first : &clock_range::last;
+            double const middle = mid(c.*side);
+            if (width(c.*side) > least && (c.*side).lower() < middle &&
+                middle < (c.*side).upper()) {
                 auto other = c;
-                (a > b ? other.offset : other.drift) = interval(middle, side.upper());
-                side = interval(side.lower(), middle);
+                other.*side = interval(middle, (c.*side).upper());
+                c.*side = interval((c.*side).lower(), middle);
                 open.push_back(other);
                 open.push_back(c);
             } else if (!result) {
                 result = c;
             } else {
-                *result = {hull(result->offset, c.offset), hull(result->drift, c.drift)};
+                *result = {hull(result->first, c.first), hull(result->last, c.last)};
             }
         }
         return result;

@@ -109,17 +109,20 @@ private:
         static auto const half = *exact_decimal::parse("0.5");
         auto const begin = table.rows.front().time + own.offset,
                    end = table.rows.back().time + own.offset;
-        auto const middle = (begin + end).times(half);
-        auto const [offset, drift] =
-            c.here ? found(own, of_first, middle) : std::pair{c.offset, c.drift};
-        auto const centre = [](ends const& x) {
-            return exact_decimal::rounded(*nearest((x.first + x.second).times(half)), 12);
-        };
+        auto const middle = (begin + end).times(half), ahead = (end - begin).times(half);
+        auto const [first, last] = c.here ? found(own, of_first, middle, ahead) : stated(ahead);
+        auto const centre = [](ends const& x) { return (x.first + x.second).times(half); };
+        auto const at_first = centre(first), at_last = centre(last);
+        auto const o = exact_decimal::rounded(*nearest((at_first + at_last).times(half)), 12);
+        auto const d = ahead.is_zero()
+                           ? exact_decimal{}
+                           : exact_decimal::rounded(
+                                 *nearest((at_last - at_first).times(half)) / *nearest(ahead), 12);
         auto const apart = [](ends const& x, exact_decimal const& from) {
             return std::max(magnitude(x.first - from), magnitude(x.second - from));
         };
-        auto const o = centre(offset), d = centre(drift);
-        auto const within = apart(offset, o) + apart(drift, d).times((end - begin).times(half));
+        auto const within =
+            std::max(apart(first, o - d.times(ahead)), apart(last, o + d.times(ahead)));
         auto const error = within.is_zero() ? within : rounded_up(within, 3);
         if (!enclose(error))
             throw input_error{c.place, "times of the file are beyond the range of double",
@@ -136,20 +139,29 @@ private:
         tell_clock(o, d, error);
         return std::move(own.content);
     }
-    /// What the signal that both files recorded leaves of offset and drift.
+    /// What is added to the first and to the last time of a file that extends by so much to both
+    /// sides of its middle, as stated.
+    [[nodiscard]] std::pair<ends, ends> stated(exact_decimal const& ahead) const {
+        auto const& [offset, drift] = std::tie(s_.clock->offset, s_.clock->drift);
+        auto const low = drift.first.times(ahead), high = drift.second.times(ahead);
+        return {{offset.first - high, offset.second - low},
+                {offset.first + low, offset.second + high}};
+    }
+    /// The same, as the signal that both files recorded leaves it.
     [[nodiscard]] std::pair<ends, ends> found(own_part const& own, own_part const& of_first,
-                                              exact_decimal const& middle) const {
+                                              exact_decimal const& middle,
+                                              exact_decimal const& ahead) const {
         auto const& c = *s_.clock;
         auto const prior = [](ends const& x) {
             return hull(*enclose(x.first), *enclose(x.second));
         };
-        auto const left =
-            search(shared(own.watched.front(), own.offset - middle),
-                   shared(of_first.watched[c.there], -middle), {prior(c.offset), prior(c.drift)});
+        auto const left = search(shared(own.watched.front(), own.offset - middle),
+                                 shared(of_first.watched[c.there], -middle),
+                                 {prior(c.offset), prior(c.drift), prior({ahead, ahead})});
         auto const of = [](interval const& x) {
             return ends{exact_decimal::of(x.lower()), exact_decimal::of(x.upper())};
         };
-        return {of(left.offset), of(left.drift)};
+        return {of(left.first), of(left.last)};
     }
     void tell_clock(exact_decimal const& offset, exact_decimal const& drift,
                     exact_decimal const& within) {
@@ -192,7 +204,7 @@ private:
     }
     [[nodiscard]] clock_range search(std::vector<shared_reading> const& here,
                                      std::vector<shared_reading> const& there,
-                                     clock_range const& prior) const {
+                                     clock_prior const& prior) const {
         auto const& c = *s_.clock;
         auto const found = (c.rate ? clock_search(here, there, prior, enclose(*c.rate)->upper())
                                    : clock_search(here, there, *nearest(c.level)))(prior);
