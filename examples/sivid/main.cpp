@@ -6,6 +6,7 @@
 #include <sivid/app/robot_of_text.hpp>
 #include <sivid/text/read_model.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -29,8 +30,9 @@ int run_without_model(int argc, char** argv, std::string const& file = "MODEL.to
     return sivid::app::run(sivid::app::robot_of_text("sivid", file, none), argc, argv,
                            {std::cout, std::cerr});
 }
-bool is_import(std::string_view command, std::filesystem::path const& file) {
-    return command == "import" && file.extension() != ".toml";
+bool is_import(std::vector<std::filesystem::path> const& words) {
+    auto const is_model = [](auto const& file) { return file.extension() == ".toml"; };
+    return words[0] == "import" && std::ranges::none_of(words, is_model);
 }
 
 /// @throws bad_request  for what is none by its name, the word that usually follows
@@ -57,7 +59,7 @@ int main(int argc, char** argv) {
         run_without_model(argc + 1, words.data());
         return sivid::app::bad_input;
     }
-    if (is_import(argv[1], argv[2])) return run_without_model(argc, argv, "");
+    if (is_import({argv + 1, argv + argc})) return run_without_model(argc, argv, "");
     std::optional<sivid::app::robot> robot;
     int const code = sivid::app::guarded("sivid", {std::cout, std::cerr}, [&] {
         robot = sivid::app::robot_of_text("sivid", argv[2], model_in(argv[2]));

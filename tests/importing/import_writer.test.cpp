@@ -57,6 +57,20 @@ TEST_CASE("what cannot be written leaves nothing") {
     broken.data.scenarios[0].role = scenario_role::holdout;
     CHECK_THROWS_AS(write_import(broken, folder.path() / "out"), std::logic_error);
     CHECK(entries(folder.path()) == 3);
+    // Nor is what is not of the model.
+    auto model = r.names;
+    model.channels[0].name = "height";
+    try {
+        write_import(r, folder.path() / "out", &model);
+        FAIL("a channel that the model does not have");
+    } catch (input_error const& e) {
+        CHECK(std::string{e.what()} ==
+              "mapping.json: what it makes is not of the model: "
+              "/channel_units/h: unknown channel 'h'; the model has: height");
+    }
+    CHECK(entries(folder.path()) == 3);
+    write_import(r, folder.path() / "out", &r.names);
+    CHECK(entries(folder.path()) == 4);
 }
 
 TEST_CASE("an import that fails while it replaces another leaves the other whole") {
@@ -134,8 +148,8 @@ TEST_CASE("the worked example of two loggers") {
     CHECK(s.duration == 3);
     CHECK(s.measurements.size() == 151 + 300);
     // The clock of the second one was drawn with -103.2371 s and 0.00012.
-    CHECK(has_note(r.protocol, "its clock: -103.234875 s are added"));
-    CHECK(has_note(r.protocol, "off by 0.00547 s at most"));
+    CHECK(has_note(r.protocol, "its clock: -103.23487101032 s are added"));
+    CHECK(has_note(r.protocol, "off by 0.00535 s at most"));
     auto const text = r.protocol.text();
     CHECK_THAT(text, ContainsSubstring("  dropped: imu.csv: w: outside [0, duration]"));
     CHECK_THAT(text, !ContainsSubstring("became no scenario"));

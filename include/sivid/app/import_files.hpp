@@ -21,17 +21,19 @@
 
 namespace sivid::app {
 
-/// Imports the files that a mapping names into a data set, and prints the protocol of what was
-/// dropped. @returns an exit code. @throws input_error, output_error
-inline int import_files(std::filesystem::path const& mapping, std::filesystem::path const& out,
-                        bool quiet) {
+/// Imports the files that a mapping names into a data set of a model, or of any without one, and
+/// prints the protocol of what was dropped. @returns an exit code. @throws input_error,
+/// output_error
+inline int import_files(model_description const& model, std::filesystem::path const& mapping,
+                        std::filesystem::path const& out, bool quiet) {
     if (out.empty()) throw output_error("--out is empty: give a folder for the data set");
     import_tools tools;
 #ifdef SIVID_HAS_MATIO
     tools.read_matlab = read_matlab;
 #endif
     auto const imported = import_dataset(read_import_mapping(mapping), tools);
-    write_import(imported, out);
+    auto const names = names_of(model);
+    write_import(imported, out, model.channels.empty() ? nullptr : &names);
     if (!quiet) result_stream() << imported.protocol.text();
     return done;
 }

@@ -20,9 +20,12 @@ namespace sivid {
 /// protocol). It is written beside the folder and read back first. A new folder appears whole; in
 /// one that is there the files take their names together (`file_set`): what cannot be written
 /// leaves it as it was, and at no time does a mixture of two imports read as a data set.
+/// @param model  of which it has to be; null: of whichever has its channels and inputs
 /// @throws output_error
+/// @throws input_error  when it is not of the model
 /// @throws std::logic_error  when the reader refuses what was written
-inline void write_import(imported_dataset const& imported, std::filesystem::path const& folder) {
+inline void write_import(imported_dataset const& imported, std::filesystem::path const& folder,
+                         model_names const* model = nullptr) {
     namespace fs = std::filesystem;
     auto target = fs::absolute(folder).lexically_normal();
     if (!target.has_filename()) target = target.parent_path();
@@ -48,6 +51,15 @@ inline void write_import(imported_dataset const& imported, std::filesystem::path
         (void)read_dataset(staging, imported.names);
     } catch (input_error const& e) {
         throw std::logic_error{std::string{"the imported data set is not valid: "} + e.what()};
+    }
+    try {
+        if (model != nullptr) (void)read_dataset(staging, *model);
+    } catch (input_error const& e) {
+        auto const& at = e.place().pointer;
+        throw input_error{{.file = imported.protocol.mapping},
+                          text_of("what it makes is not of the model: ",
+                                  at.empty() ? "" : at + ": ", e.problem()),
+                          e.remedy()};
     }
     if (!fs::exists(target, fault)) {
         fs::rename(staging, target, fault);

@@ -306,8 +306,9 @@ private:
             add(c, "import",
                 "recorded files of any form into a data set; or a robot's URDF into a model",
                 "mapping.json --out data", [this, &c] {
-                    return is_robot(c.mapping) ? import_robot(c.mapping, c.out, robot_, c.quiet)
-                                               : import_files(c.mapping, c.out, c.quiet);
+                    return is_robot(c.mapping)
+                               ? import_robot(c.mapping, c.out, robot_, c.quiet)
+                               : import_files(of_.model.about, c.mapping, c.out, c.quiet);
                 });
         s->add_option("mapping", c.mapping,
                       "what the files hold (sivid-mapping-1); or robot.urdf, in place of a model")
