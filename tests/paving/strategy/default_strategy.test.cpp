@@ -12,6 +12,7 @@
 
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/strategy/contains_truth.hpp>
+#include <sivid/paving/strategy/detail/by_parts.hpp>
 #include <sivid/paving/strategy/inquiry.hpp>
 
 #include <cstddef>
@@ -108,4 +109,40 @@ TEST_CASE("where outliers are allowed groups of measurements are asked") {
     CHECK(is_empty(left(how)));
     p.experiments[0].outliers = 8;
     CHECK(left(how)[0].upper() == 1e7);
+}
+
+namespace {
+
+/// Knows the truth of boxes of less than half of the prior; of others it says nothing.
+class short_sighted : public contractor {
+public:
+    [[nodiscard]] std::string name() const override { return "short-sighted"; }
+    [[nodiscard]] leftover operator()(inquiry& asked, work_limit const&,
+                                      contraction_record&) const override {
+        auto const& x = asked.problem().prior;
+        for (auto const& side : x)
+            if (width(side) > 2.6) return asked.left();
+        return {intersect(x, box{interval(1.0, 1.125), interval(3.0, 3.25)})};
+    }
+};
+
+} // namespace
+
+TEST_CASE("contractors that are blind to the whole prior are asked about its parts") {
+    auto p = support::infection(10, 1);
+    p.prior = {interval(0.0, 5.0), interval(0.0, 5.0)};
+    strategy const blind{{{{std::make_shared<short_sighted>()}}}};
+    auto const parts = std::make_shared<paving_detail::by_parts>(blind);
+    inquiry asked(p, {}, {}, work_limit(1e3));
+    contract({{{blind.steps[0].by}, {{parts}}}}, asked);
+    auto const& left = asked.problem().prior;
+    CHECK((left[0] == interval(1.0, 1.125) && left[1] == interval(3.0, 3.25)));
+    REQUIRE(asked.journal().size() == 2);
+    CHECK(asked.journal()[0].how == contraction_record::outcome::idle);
+    CHECK(asked.journal()[1].figure("parts") == 8); // four, then four of what is left
+    CHECK(strategy{{{{parts}}}}.without("short-sighted").steps[0].by[0] != parts);
+    inquiry late(p, {}, {}, work_limit(0));
+    work_limit const none(0);
+    contraction_record says;
+    CHECK((*parts)(late, none, says).parameters[1] == p.prior[1]);
 }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -100,6 +101,12 @@ public:
     /// @guarantee  keeps every parameter, and every start, that explains the data
     [[nodiscard]] virtual leftover operator()(inquiry& asked, work_limit const& limit,
                                               contraction_record& says) const = 0;
+
+    /// The same, but for contractors of a name among those that it asks in turn; null: it asks
+    /// none.
+    [[nodiscard]] virtual std::shared_ptr<contractor const> without(std::string_view) const {
+        return nullptr;
+    }
 
     /// Tests a part of a prior: outside, or what is left of it; for any thread.
     using part_test = std::function<assessment<>(box const&)>;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sivid {
@@ -33,8 +34,11 @@ struct strategy {
     /// The same but for contractors of this name.
     [[nodiscard]] strategy without(std::string_view name) const {
         auto result = *this;
-        for (auto& s : result.steps)
+        for (auto& s : result.steps) {
             std::erase_if(s.by, [&](auto const& by) { return by->name() == name; });
+            for (auto& by : s.by)
+                if (auto less = by->without(name)) by = std::move(less);
+        }
         std::erase_if(result.steps, [](step const& s) { return s.by.empty(); });
         return result;
     }
@@ -53,7 +57,7 @@ enum class search_kind {
 /// What is tried before a search, where the program has it (`complete.hpp`); otherwise nothing is,
 /// and the journal says so. Its contractors by name, for `without`, in their order: shapes, state
 /// equations, interval observers, growing window, guided windows, slower inputs, windows all along,
-/// groups of measurements.
+/// groups of measurements, parts of the prior (`search_kind::one`).
 [[nodiscard]] SIVID_DECL strategy default_strategy(search_kind of = search_kind::one);
 
 } // namespace sivid

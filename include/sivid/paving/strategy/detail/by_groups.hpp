@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace sivid::paving_detail {
@@ -32,6 +34,9 @@ public:
         return allowed <= most ? ""
                                : std::to_string(allowed) + " outliers are allowed, more than " +
                                      std::to_string(most);
+    }
+    [[nodiscard]] std::shared_ptr<contractor const> without(std::string_view name) const override {
+        return std::make_shared<by_groups>(others_.without(name));
     }
     [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
                                       contraction_record& says) const override {

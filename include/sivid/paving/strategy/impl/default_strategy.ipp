@@ -5,6 +5,7 @@
 #include <sivid/paving/strategy/detail/usual_strategy.hpp>
 
 #include <sivid/paving/strategy/detail/by_groups.hpp>
+#include <sivid/paving/strategy/detail/by_parts.hpp>
 #include <sivid/paving/strategy/detail/by_shapes.hpp>
 #include <sivid/paving/strategy/detail/by_slower_inputs.hpp>
 #include <sivid/paving/strategy/detail/by_windows.hpp>
@@ -99,8 +100,8 @@ SIVID_DECL strategy usual_strategy(search_kind of) {
         // A try: it ends within a tenth of the time where it is of use.
         {{growing}, 0.1 * pace, [=](inquiry& asked) { return try_growing(asked, early); }},
         {{guided}, 0.9 * pace, try_guided, true},
-        // The other half is for the recorded inputs.
-        {{slower}, 0.5 * pace, early_runs},
+        // The rest is for the recorded inputs: arm at 1 kHz from an uncertain start (robots).
+        {{slower}, 0.7 * pace, early_runs},
         // Both leave time for a search of what is left.
         {{growing},
          0.7 * pace,
@@ -109,6 +110,9 @@ SIVID_DECL strategy usual_strategy(search_kind of) {
     }};
     // All of these, where outliers are allowed.
     how.steps.push_back({{std::make_shared<by_groups>(how)}, 0.8 * pace, early_runs});
+    // A search by runs excludes nothing where they end that early. The rest is for the paving.
+    auto const quick = how.without(shapes->name());
+    if (one) how.steps.push_back({{std::make_shared<by_parts>(quick)}, 0.8, early_runs});
     return how;
 }
 
