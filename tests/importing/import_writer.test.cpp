@@ -66,7 +66,7 @@ TEST_CASE("what cannot be written leaves nothing") {
     } catch (input_error const& e) {
         CHECK(std::string{e.what()} ==
               "mapping.json: what it makes is not of the model: "
-              "/channel_units/h: unknown channel 'h'; the model has: height");
+              "unknown channel 'h'; the model has: height");
     }
     CHECK(entries(folder.path()) == 3);
     write_import(r, folder.path() / "out", &r.names);
