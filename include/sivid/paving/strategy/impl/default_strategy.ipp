@@ -95,7 +95,7 @@ SIVID_DECL strategy usual_strategy(search_kind of) {
         {{shapes}, 0.9 * pace, early_runs, true},
         // Seconds at most; the longest are records of thousands of samples.
         {{equations, observers},
-         one ? 0.15 : 0.25,
+         0.25,
          [=](inquiry& asked) { return reaches_less(asked, equations_below); }},
         // A try: it ends within a tenth of the time where it is of use.
         {{growing}, 0.1 * pace, [=](inquiry& asked) { return try_growing(asked, early); }},
