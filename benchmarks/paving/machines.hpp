@@ -183,6 +183,25 @@ struct battery {
     }
 };
 
+/// A quadrotor's altitude: thrust with a lag, quadratic drag; only the altitude is measured.
+struct altitude {
+    static constexpr auto name = "altitude";
+    static constexpr auto states =
+        sivid::states({{"z", "m", 20}, {"v", "m/s", 10}, {"f", "m/s^2", 30}});
+    static constexpr auto inputs = sivid::inputs({{"pwm", "counts"}});
+    static constexpr auto channels = sivid::channels({{"z", "m"}});
+    static constexpr auto constants = sivid::constants(
+        {{"k", "m/s^2", 0.011_dec}, {"tau", "s", 0.06_dec}, {"drag", "1/m", 0.06_dec}});
+    template <class T>
+    vec<T, 3> rate(T const&, vec<T, 3> const& x, vec<T, 3> const& c, vec<T, 1> const& u) const {
+        return {x[1], x[2] - 9.81 - c[2] * x[1] * abs(x[1]), (c[0] * u[0] - x[2]) / c[1]};
+    }
+    template <class T>
+    vec<T, 1> observe(T const&, vec<T, 3> const& x, vec<T, 3> const&, vec<T, 1> const&) const {
+        return {x[0]};
+    }
+};
+
 /// Masses in a row between springs and dampers, the first one pushed; all places are measured.
 struct chain {
     static constexpr std::size_t masses = 6;

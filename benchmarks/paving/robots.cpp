@@ -70,6 +70,12 @@ driven driven_battery() {
                 return values{3 * burst + 2 * std::sin(0.21 * t) + std::sin(0.9 * t)};
             }};
 }
+driven climbing_quadrotor() {
+    return {record_model(altitude()), {1, 0, 9.81}, [](double t, values const& x) {
+                double const wanted = std::fmod(t, 4) < 2 ? 4 : 1;
+                return values{9.81 / 0.011 + 60 * (wanted - x[0]) - 60 * x[1]};
+            }};
+}
 template <class Machine>
 driven pushed() {
     return {record_model(Machine()), values(state_count<Machine>), [](double t, values const&) {
@@ -227,6 +233,8 @@ int main(int argc, char** argv) {
         {{"car, 30 s, +-20 %", 30, 100, 0.01, 0.05, 0.2}, driven_car},
         {{"quadrotor, 20 s, +-20 %", 20, 50, 0.02, 0.01, 0.2}, flown_quadrotor},
         {{"quadrotor, 20 s, +-20 %, start +-0.05", 20, 50, 0.02, 0.01, 0.2, 0.05}, flown_quadrotor},
+        {{"altitude of a quadrotor, 6 s, +-30 %, start +-0.3", 6, 50, 0.02, 0.01, 0.3, 0.3},
+         climbing_quadrotor},
         {{"battery, 1 h, +-20 %", 3600, 1, 1, 0.002, 0.2, 0, 1, 0, {}, 0.1}, driven_battery},
         {{"chain of 6 masses, 20 s, +-25 %", 20, 5, 0.1, 0.01, 0.25}, pushed<chain>},
         {{"chain of 32 masses, 10 s, +-20 %", 10, 5, 0.2, 0.01, 0.2}, pushed<long_chain<64>>},
