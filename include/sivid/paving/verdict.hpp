@@ -76,7 +76,7 @@ enum class stop_reason {
     case stop_reason::hulls_rest:
         return "hulls shrink no more";
     case stop_reason::too_blurred:
-        return "boxes as small as asked for decide nothing";
+        return "boxes as small as asked for, tried all over what is left, decide nothing";
     case stop_reason::time_budget:
         return "time budget spent";
     case stop_reason::box_budget:

@@ -428,11 +428,12 @@ private:
             ->delimiter(',');
         add_disturbances(s, c);
         add_enclosing(s, c.how);
-        s.add_option("--accuracy", c.accuracy,
-                     "leave boxes undecided when no side is wider than this share of what is left "
-                     "(report-1, report-2: of the prior). When given, nothing but a budget ends "
-                     "the search before; without it (0.003), half of what is left being proved "
-                     "inside does, too")
+        s.add_option(
+             "--accuracy", c.accuracy,
+             "leave boxes undecided when no side is wider than this share of what is left "
+             "(report-1, report-2: of the prior). When given, nothing but a budget, or boxes "
+             "so small that decide nothing, ends the search before; without it (0.003), "
+             "half of what is left being proved inside does, too")
             ->check(number_between(1e-15, 1.0));
         add_budget(s, c.budget, "seconds, from when the data are read");
         s.add_option("--boxes", c.boxes, "number of boxes to test, at most")
