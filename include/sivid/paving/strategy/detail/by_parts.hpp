@@ -2,6 +2,7 @@
 #ifndef SIVID_PAVING_STRATEGY_DETAIL_BY_PARTS_HPP
 #define SIVID_PAVING_STRATEGY_DETAIL_BY_PARTS_HPP
 
+#include <sivid/paving/inversion_options.hpp>
 #include <sivid/paving/strategy/contractor.hpp>
 #include <sivid/paving/strategy/inquiry.hpp>
 #include <sivid/paving/strategy/strategy.hpp>
@@ -38,8 +39,10 @@ public:
     [[nodiscard]] leftover operator()(inquiry& asked, work_limit const& limit,
                                       contraction_record& says) const override {
         auto const& prior = asked.problem().prior;
+        stopwatch const clock;
         std::vector<box> left{prior};
-        double volume = 1, parts = 0;
+        double volume = 1;
+        std::size_t parts = 0;
         for (double before = HUGE_VAL; limit() && volume < 0.8 * before;) {
             std::vector<box> less;
             for (auto const& whole : left) {
@@ -48,13 +51,18 @@ public:
                     auto rest = in_time ? contracted(x, asked, limit, says) : x;
                     if (!is_empty(rest)) less.push_back(std::move(rest));
                     parts += in_time ? 1 : 0;
+                    if (in_time && asked.search().progress)
+                        (void)asked.search().progress({.seconds = clock.spent(),
+                                                       .tested = parts,
+                                                       .pending = less.size(),
+                                                       .outer = volume});
                 }
             }
             left = std::move(less);
             before = std::exchange(volume, 0);
             for (auto const& x : left) volume += relative_volume(x, prior).upper();
         }
-        says.figures.emplace_back("parts", parts);
+        says.figures.emplace_back("parts", static_cast<double>(parts));
         auto all = empty_box(prior.size());
         for (auto const& x : left) all = is_empty(all) ? x : hull(all, x);
         return {all};
