@@ -136,7 +136,8 @@ TEST_CASE("contractors that are blind to the whole prior are asked about its par
     inquiry asked(p, {}, {}, work_limit(1e3));
     contract({{{blind.steps[0].by}, {{parts}}}}, asked);
     auto const& left = asked.problem().prior;
-    CHECK((left[0] == interval(1.0, 1.125) && left[1] == interval(3.0, 3.25)));
+    CHECK(subset(box{interval(1.0, 1.125), interval(3.0, 3.25)}, left));
+    CHECK((width(left[0]) < 0.13 && width(left[1]) < 0.26)); // rounded outward
     REQUIRE(asked.journal().size() == 2);
     CHECK(asked.journal()[0].how == contraction_record::outcome::idle);
     CHECK(asked.journal()[1].figure("parts") == 8); // four, then four of what is left
@@ -144,5 +145,5 @@ TEST_CASE("contractors that are blind to the whole prior are asked about its par
     inquiry late(p, {}, {}, work_limit(0));
     work_limit const none(0);
     contraction_record says;
-    CHECK((*parts)(late, none, says).parameters[1] == p.prior[1]);
+    CHECK(subset(p.prior, (*parts)(late, none, says).parameters));
 }
