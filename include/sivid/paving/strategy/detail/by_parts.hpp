@@ -25,7 +25,7 @@ namespace sivid::paving_detail {
 /// Asks contractors about parts of the prior, where they say little of all of it (constructive
 /// disjunction): each side is halved, and all are asked of each part. What explains the data is in
 /// what is left of one of the parts: in the hull of these. Again while less than four fifths are
-/// left.
+/// left, in few parts.
 ///   All sides at once, since which one blurs a run is not known before.
 /// @cost  a part takes as long as the prior did, or less
 class by_parts : public contractor {
@@ -43,11 +43,12 @@ public:
         std::vector<box> left{prior};
         double volume = 1;
         std::size_t parts = 0;
-        for (double before = HUGE_VAL; limit() && volume < 0.8 * before;) {
+        for (double before = HUGE_VAL;
+             limit() && volume < 0.8 * before && left.size() <= most_parts;) {
             std::vector<box> less;
             for (auto const& whole : left) {
                 for (auto const& x : halved(whole, prior)) {
-                    bool const in_time = limit();
+                    bool const in_time = limit() && parts < asked.search().boxes;
                     auto rest = in_time ? contracted(x, asked, limit, says) : x;
                     if (!is_empty(rest)) less.push_back(std::move(rest));
                     parts += in_time ? 1 : 0;
@@ -69,7 +70,9 @@ public:
     }
 
 private:
-    /// Its halves of up to six sides, the widest against the prior: 64 parts.
+    static constexpr std::size_t most_parts = 64; ///< where more are left a search is for them
+
+    /// Its halves of up to six sides, the widest against the prior.
     [[nodiscard]] static std::vector<box> halved(box const& whole, box const& prior) {
         auto const share = [&](std::size_t j) {
             return width(prior[j]) > 0 ? width(whole[j]) / width(prior[j]) : 0;

@@ -13,6 +13,7 @@
 #include <sivid/paving/strategy/inquiry.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -72,6 +73,22 @@ inline promise go_all_along(inquiry& asked, double early, bool one) {
     return reaches_less(asked, early);
 }
 
+/// A search by runs is quick as soon as its boxes are small enough for them to reach something.
+inline promise try_parts(inquiry& asked, double early) {
+    auto whole = reaches_less(asked, early);
+    if (!whole.worth) return whole;
+    auto half = asked.problem().prior;
+    auto const at = mid(asked.fitted());
+    for (std::size_t j = 0; j < half.size(); ++j) {
+        double const quarter = width(half[j]) / 4;
+        auto const about = interval(at[j] - quarter, at[j] + quarter);
+        if (overlap(half[j], about)) half[j] = intersect(half[j], about);
+    }
+    bool const few = asked.test().reached(half) < early;
+    return {few, few ? "runs over half of each side end early, too"
+                     : "runs over half of each side reach enough"};
+}
+
 /// Who, the share of the time that is left, when, and whether the search follows a gain. Shares are
 /// upper limits: each ends by itself when it rests.
 SIVID_DECL strategy usual_strategy(search_kind of) {
@@ -110,9 +127,13 @@ SIVID_DECL strategy usual_strategy(search_kind of) {
     }};
     // All of these, where outliers are allowed.
     how.steps.push_back({{std::make_shared<by_groups>(how)}, 0.8 * pace, early_runs});
-    // A search by runs excludes nothing where they end that early. The rest is for the paving.
+    // A search by runs excludes nothing where they end that early: altitude of a quadrotor
+    // (robots).
     auto const quick = how.without(shapes->name());
-    if (one) how.steps.push_back({{std::make_shared<by_parts>(quick)}, 0.8, early_runs});
+    if (one)
+        how.steps.push_back({{std::make_shared<by_parts>(quick)}, 0.5, [=](inquiry& asked) {
+                                 return try_parts(asked, early);
+                             }});
     return how;
 }
 
