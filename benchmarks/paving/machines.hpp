@@ -188,7 +188,7 @@ struct altitude {
     static constexpr auto name = "altitude";
     static constexpr auto states =
         sivid::states({{"z", "m", 20}, {"v", "m/s", 10}, {"f", "m/s^2", 30}});
-    static constexpr auto inputs = sivid::inputs({{"pwm", "counts"}});
+    static constexpr auto inputs = sivid::inputs({{"pwm", "1"}});
     static constexpr auto channels = sivid::channels({{"z", "m"}});
     static constexpr auto constants = sivid::constants(
         {{"k", "m/s^2", 0.011_dec}, {"tau", "s", 0.06_dec}, {"drag", "1/m", 0.06_dec}});

@@ -142,7 +142,7 @@ private:
     /// What is added to the first and to the last time of a file that extends by so much to both
     /// sides of its middle, as stated.
     [[nodiscard]] std::pair<ends, ends> stated(exact_decimal const& ahead) const {
-        auto const& [offset, drift] = std::tie(s_.clock->offset, s_.clock->drift);
+        auto const &offset = s_.clock->offset, &drift = s_.clock->drift;
         auto const low = drift.first.times(ahead), high = drift.second.times(ahead);
         return {{offset.first - high, offset.second - low},
                 {offset.first + low, offset.second + high}};
