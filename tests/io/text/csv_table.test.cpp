@@ -51,7 +51,7 @@ TEST_CASE("every defect of a table is one error with line and column") {
         std::string message;
     };
     for (auto const& d :
-         std::vector<defect>{{"", 0, 0, "no heading line"},
+         std::vector<defect>{{"", 0, 0, "the file is empty: no heading line"},
                              {"# only a comment\n\n", 0, 0, "no heading line"},
                              {"t,u,u\n", 1, 3, "appears twice"},
                              {"t,,u\n", 1, 2, "without a heading"},

@@ -45,7 +45,7 @@ TEST_CASE("every defect of a document is one error with its pointer") {
         std::string text, pointer, message;
     };
     for (auto const& d :
-         std::vector<defect>{{"", "", "malformed JSON"},
+         std::vector<defect>{{"", "", "the file is empty"},
                              {"{\"a\": 1", "", "malformed JSON"},
                              {"{\"a\": 1} x", "", "malformed JSON"},
                              {"{\"a\": [1, }", "/a/1", "malformed JSON"},

@@ -58,8 +58,10 @@ public:
             }
         }
         if (headings_.empty())
-            throw input_error{
-                {.file = file_}, "no heading line", "the first line names the columns: t,..."};
+            throw input_error{{.file = file_},
+                              content_->text.empty() ? "the file is empty: no heading line"
+                                                     : "no heading line",
+                              "the first line names the columns: t,..."};
         std::span<std::string_view const> cells = content_->cells;
         rows_.reserve(lines.size());
         for (auto const line : lines) {

@@ -39,8 +39,10 @@ public:
         require_lines(text, file_);
         for (auto const& line : lines_of(text)) take(line);
         if (headings_.empty())
-            throw input_error{
-                {.file = file_}, "no heading line", "the first line names the columns"};
+            throw input_error{{.file = file_},
+                              text.empty() ? "the file is empty: no heading line"
+                                           : "no heading line",
+                              "the first line names the columns"};
         filter_->require_any();
         if (!form_.lines) kinds_->require_one(headings_, file_);
         return rows_.take();

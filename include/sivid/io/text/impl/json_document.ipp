@@ -164,8 +164,11 @@ private:
             .heading = "",
             .pointer = next_pointer(),
             .is_json = true};
-        throw input_error{place, text_of("malformed JSON near ", in_quotes(token), ": ", what),
-                          "correct the syntax"};
+        bool const empty = text_.find_first_not_of(" \t\r\n") == std::string_view::npos;
+        throw input_error{place,
+                          empty ? "the file is empty"
+                                : text_of("malformed JSON near ", in_quotes(token), ": ", what),
+                          empty ? "write a JSON document" : "correct the syntax"};
     }
 
     static constexpr std::size_t deepest = 64; // far deeper than any format here; bounds recursion
