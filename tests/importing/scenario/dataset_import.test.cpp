@@ -170,6 +170,15 @@ TEST_CASE("more outliers than the data set allows are told") {
     CHECK_FALSE(has_note(allowed.protocol, "may violate"));
 }
 
+TEST_CASE("a stated bound of less than half a step is told") {
+    auto const table = smooth(300, 1);
+    auto const with = [&](std::string const& error) {
+        return import_csv(replaced(csv_mapping, "\"error\": 0.02", "\"error\": " + error), table);
+    };
+    CHECK(has_note(with("0.00002").protocol, "0.00002 is less than half a step of its readings"));
+    CHECK_FALSE(has_note(with("0.00005").protocol, "half a step"));
+}
+
 TEST_CASE("candidates for a stated bound hold a planted error where what they rest on is so") {
     // Twice the same command; the first 40 readings at rest; errors up to 0.05 m, steps of 0.01 m.
     auto const table = [](unsigned seed) {

@@ -8,6 +8,7 @@
 #include <sivid/importing/scenario/detail/start_proposal.hpp>
 #include <sivid/importing/table/recorded_files.hpp>
 #include <sivid/number/text/joined.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -176,6 +177,7 @@ private:
                 }
             }
             note.candidates = error_bound_candidates(records);
+            if (!inputs && !records.empty()) warn_of_steps(*q.mapping, note.candidates, records);
             if (open != nullptr) {
                 auto const near =
                     std::ranges::find(note.candidates, "neighbours", &bound_candidate::from);
@@ -220,6 +222,19 @@ private:
                         "max_outlier_fraction allows: raise it, or state a bound"));
     }
 
+    /// Says where a stated bound of a channel is less than what its readings are rounded by.
+    void warn_of_steps(quantity_mapping const& q, std::vector<bound_candidate> const& candidates,
+                       std::vector<recorded_series> const& records) {
+        auto const step = std::ranges::find(candidates, "step", &bound_candidate::from);
+        if (q.error.from != bound_source::kind::number || step == candidates.end() ||
+            !(*nearest(q.error.number) < step->bound * (1 - 1e-9)))
+            return;
+        result_.protocol.add(kind::assumed, records.front().name, q.name,
+                             text_of("the stated bound ", q.error.number.text(),
+                                     " is less than half a step of its readings, ",
+                                     nearest_text(step->bound, 3),
+                                     ": that holds only where nothing was rounded"));
+    }
     /// The bound of a sample with what its conversion adds.
     [[nodiscard]] exact_decimal bound(imported_quantity const& q, imported_sample const& sample,
                                       bool input) const {
