@@ -196,17 +196,20 @@ def rank(
     data: Record | None = None,
     *,
     scenario: Scenario | None = None,
+    effects: Sequence[str] = (),
     out: File | None = None,
     progress: Progress = None,
     **options,
 ) -> Ranking:
     """How far each parameter alone can move the measurements of data, or of a scenario with ``unknown`` constants and
-    ``measure``, the bounds of what is measured: ``{"psi": 0.01}``."""
+    ``measure``, the bounds of what is measured: ``{"psi": 0.01}``. ``effects``: of the model's catalogue, joined to it
+    (``--with``)."""
     place = _placed(out)
     words = ["rank"] if data is None else ["rank", _data(model, data, place)]
     if "unknown" in options:
         options["unknown"] = _assigned(options["unknown"])
-    words += _words({"scenario": scenario and _scenario(scenario, place), **options})
+    effects = [effects] if isinstance(effects, str) else list(effects)
+    words += _words({"scenario": scenario and _scenario(scenario, place), "with": effects, **options})
     return _run(Ranking, model, place, words, progress)
 
 
@@ -228,7 +231,8 @@ def disturbance(
     ``curve`` (points of the trade-off between equations and channels)."""
     place = _placed(out)
     words = ["disturbance", _data(model, data, place)]
-    words += _words({"on": on, "error": error, "with": ",".join(effects) or None, **options})
+    effects = [effects] if isinstance(effects, str) else list(effects)
+    words += _words({"on": on, "error": error, "with": effects, **options})
     return _run(Disturbance, model, place, words, progress)
 
 

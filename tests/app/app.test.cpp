@@ -81,6 +81,8 @@ TEST_CASE("a misspelt command, option or name is answered by the nearest one") {
     refused({"rank", "--out", out}, "give a data set or --scenario");
     refused({"rank", "--scenario", "tea", "--out", out}, "--measure");
     refused({"disturbance", s.data(), "--out", out}, "name one with its scale");
+    refused({"rank", s.data(), "--with", "draft", "--out", out}, "did you mean 'draught'?");
+    refused({"rank", "--scenario", "tea", "--with", "draught", "--out", out}, "--with");
     refused({"disturbance", s.data(), "--on", "U=1", "--out", out}, "no equation 'U'");
     refused({"disturbance", s.data(), "--on", "T=0", "--out", out}, "a number above 0");
     refused({"disturbance", s.data(), "--on", "T", "--out", out}, "write name=value");
@@ -239,6 +241,9 @@ TEST_CASE("online, outliers, effects, checkpoints: the same files as any result"
     CHECK(run({"identify", s.data(), "--out", out, "--with", "draught", "--quiet", "--boxes", "50"})
               .code == 0);
     CHECK(json_of(fs::path{out} / "result.json")["effects"] == nlohmann::json{"draught"});
+    auto const ranked = run({"rank", s.data(), "--out", s.at("r"), "--with", "draught", "--quiet"});
+    CHECK(ranked.code != 2);
+    CHECK_THAT(ranked.out, ContainsSubstring("draught"));
     auto const stopped = run({"identify", s.data(), "--out", out, "--quiet", "--checkpoint", "0",
                               "--accuracy", "1e-9", "--boxes", "30"});
     CHECK(stopped.code != 2);

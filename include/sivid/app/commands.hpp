@@ -168,6 +168,7 @@ struct decision_command : command {
 
 struct rank_command : command {
     std::filesystem::path dataset;          ///< whose measurements are moved; or
+    std::vector<std::string> effects;       ///< of a data set: joined to the model
     std::string scenario;                   ///< a name, a file, or all
     std::vector<unknown_parameter> unknown; ///< of a scenario: what is ranked; empty: usual ones
     std::vector<std::string> measure;       ///< of a scenario: error bounds; empty: the robot's

@@ -786,8 +786,10 @@ private:
                                 return run(of_, c);
                             });
         auto* const dataset = s->add_option("dataset", c.dataset, "folder with dataset.json");
+        s->add_option("--with", c.effects, "of a data set: effects to join to the model")
+            ->delimiter(',');
         add_scenario(*s, c.scenario, ", all: instead of a data set");
-        s->get_option("--scenario")->excludes(dataset);
+        s->get_option("--scenario")->excludes(dataset)->excludes("--with");
         add_unknown(*s, "of a scenario: the constants to rank")->excludes(dataset);
         s->add_option("--measure", c.measure,
                       "of a scenario: what is measured and within which error bound, such as "

@@ -87,8 +87,9 @@ inline int run_verify(robot const& r, decision_command const& c) {
     progress_line progress(c.quiet);
     progress.note("verifying " + task.scenario() + " for all that " + task.dataset() + " leaves");
     auto const found = verify(about->problem, asked, about->feasible, options_for(c, c.budget, 60));
-    progress.finish();
+    double const answered = progress.elapsed();
     if (!c.out.empty()) {
+        progress.note("tubes for the page");
         auto page = task.page_options();
         double const left = std::max(0.2, c.budget - progress.elapsed());
         auto const tubes = task.predicted(*about, options_for(c, 0.5 * left), asked.margins);
@@ -104,12 +105,16 @@ inline int run_verify(robot const& r, decision_command const& c) {
                   verification_json(*about, asked, found, task.json_options()));
         files.commit();
     }
+    progress.finish();
+    auto const page_time =
+        c.out.empty() ? ""
+                      : " (the page " + report::duration_text(progress.elapsed() - answered) + ")";
     result_stream() << task.scenario() << ", " << task.dataset() << ": " << to_string(found.answer)
                     << "\n  " << asked.text << "\n  " << report::answer_sentence(*about, found)
                     << "\n";
     print_end(*about,
-              report::duration_text(found.seconds) + ", " + std::to_string(found.parts) +
-                  " parts, " + std::to_string(found.integrations),
+              report::duration_text(found.seconds) + page_time + ", " +
+                  std::to_string(found.parts) + " parts, " + std::to_string(found.integrations),
               c, (c.out / "verification.html").string() + " and verification.json");
     return found.answer == requirement_answer::proved    ? done
            : found.answer == requirement_answer::refuted ? refuted

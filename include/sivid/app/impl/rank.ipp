@@ -111,16 +111,11 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
         throw bad_request("give a data set or --scenario, one of the two");
     bool const of_data = c.scenario.empty();
     auto const disturbances = disturbances_from(r, c.disturbed, c.errors);
-    std::string name;
-    std::optional<identification_problem> posed_problem;
-    if (of_data) {
-        auto const data = read_data(r, c.dataset);
-        name = data.id;
-        posed_problem = posed(r, data, {}, disturbances);
-    } else {
-        posed_problem = disturbed(detail::measured(r, c), disturbances);
-    }
-    auto const& problem = *posed_problem;
+    std::optional<dataset> data;
+    if (of_data) data = read_data(r, c.dataset);
+    auto const name = data ? data->id : std::string{};
+    auto const problem = data ? posed(r, *data, c.effects, disturbances)
+                              : disturbed(detail::measured(r, c), disturbances);
     rank_options options;
     apply(c.how, options.run);
     prepare_folder(c.out);
@@ -143,10 +138,12 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     progress.finish();
     decision_json_options json;
     report::decision_page_options page;
-    page.dataset = json.dataset = name;
-    if (!disturbances.empty())
-        page.dataset += " for all disturbances of " + in_words(disturbances, problem.model);
+    json.dataset = name;
     page.scenario = json.scenario = c.scenario;
+    if (data)
+        page.dataset = title_of(*data, c.effects, disturbances, problem.model);
+    else if (!disturbances.empty())
+        page.scenario += " for all disturbances of " + in_words(disturbances, problem.model);
     page.footer = page_footer(c.command_line);
     file_set files(c.out);
     report::ranking_page(problem, found, page, measurements).add_to(files);
@@ -154,7 +151,8 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     files.commit();
     detail::print_channels(problem, found);
     if (worth != nullptr) detail::print_worth(problem, *worth);
-    for (auto const& words : assumptions_of(disturbances, problem.model))
+    for (auto const& words : data ? assumptions_of(r, *data, c.effects, disturbances, problem.model)
+                                  : assumptions_of(disturbances, problem.model))
         result_stream() << "  - " << words << "\n";
     result_stream() << "  written: " << (c.out / "ranking.html").string() << " and ranking.json\n";
     return found.complete && (worth == nullptr || worth->complete) ? done : undecided;
