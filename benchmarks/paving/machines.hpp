@@ -202,6 +202,29 @@ struct altitude {
     }
 };
 
+/// The barrel of an extruder, above the surroundings: the mains limit its heater to a share of 3 kW;
+/// only the barrel is measured.
+struct barrel {
+    static constexpr auto name = "barrel";
+    static constexpr auto states = sivid::states({{"heater", "K", 400}, {"barrel", "K", 300}});
+    static constexpr auto inputs = sivid::inputs({{"u", "1"}});
+    static constexpr auto channels = sivid::channels({{"barrel", "K"}});
+    static constexpr auto constants = sivid::constants({{"Ch", "J/K", 2150_dec},
+                                                        {"Cb", "J/K", 9300_dec},
+                                                        {"kh", "W/K", 43_dec},
+                                                        {"kb", "W/K", 8.6_dec},
+                                                        {"most", "1", 0.78_dec}});
+    template <class T>
+    vec<T, 2> rate(T const&, vec<T, 2> const& x, vec<T, 5> const& c, vec<T, 1> const& u) const {
+        T const into = c[2] * (x[0] - x[1]);
+        return {(3000 * min(u[0], c[4]) - into) / c[0], (into - c[3] * x[1]) / c[1]};
+    }
+    template <class T>
+    vec<T, 1> observe(T const&, vec<T, 2> const& x, vec<T, 5> const&, vec<T, 1> const&) const {
+        return {x[1]};
+    }
+};
+
 /// Masses in a row between springs and dampers, the first one pushed; all places are measured.
 struct chain {
     static constexpr std::size_t masses = 6;

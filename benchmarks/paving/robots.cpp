@@ -76,6 +76,12 @@ driven climbing_quadrotor() {
                 return values{9.81 / 0.011 + 60 * (wanted - x[0]) - 60 * x[1]};
             }};
 }
+driven heated_barrel() {
+    return {record_model(barrel()), {0, 0}, [](double t, values const& x) {
+                double const wanted = t < 750 ? 150 : 180;
+                return values{std::clamp(0.05 * (wanted - x[1]), 0.0, 1.0)};
+            }};
+}
 template <class Machine>
 driven pushed() {
     return {record_model(Machine()), values(state_count<Machine>), [](double t, values const&) {
@@ -144,7 +150,8 @@ void show(machine const& m, identify_options const& options) {
                     std::string{to_string(r.how)}.c_str(), r.left, r.seconds);
         for (auto const& [name, value] : r.figures) std::printf(", %s %.3g", name.c_str(), value);
     }
-    std::printf("\n  hulls, %% of the prior:");
+    std::printf("\n  left %.3g of the prior's volume, hulls, %% of the prior:",
+                found.paving.outer_volume().upper());
     show_sides(found.hull, problem.prior);
     std::printf("\n  least squares off by, %% of the prior:");
     for (std::size_t j = 0; j < fitted.parameters.size(); ++j) {
@@ -235,6 +242,8 @@ int main(int argc, char** argv) {
         {{"quadrotor, 20 s, +-20 %, start +-0.05", 20, 50, 0.02, 0.01, 0.2, 0.05}, flown_quadrotor},
         {{"altitude of a quadrotor, 6 s, +-30 %, start +-0.3", 6, 50, 0.02, 0.01, 0.3, 0.3},
          climbing_quadrotor},
+        {{"barrel of an extruder, 25 min, +-30 %, start +-1", 1500, 0.4, 2.5, 0.5, 0.3, 1},
+         heated_barrel},
         {{"battery, 1 h, +-20 %", 3600, 1, 1, 0.002, 0.2, 0, 1, 0, {}, 0.1}, driven_battery},
         {{"chain of 6 masses, 20 s, +-25 %", 20, 5, 0.1, 0.01, 0.25}, pushed<chain>},
         {{"chain of 32 masses, 10 s, +-20 %", 10, 5, 0.2, 0.01, 0.2}, pushed<long_chain<64>>},

@@ -101,8 +101,6 @@ work identified(units const& in, bool friction, std::size_t boxes,
     identify_options options;
     options.search.seconds = 1e9;
     options.search.boxes = boxes;
-    // Asked about parts contractors take minutes where nothing limits their time.
-    if (friction) options.strategy = options.strategy.without("parts of the prior");
     auto const found = identify(posed_in(in, friction, of), options);
     return {std::string(to_string(found.verdict)), found.effort ? found.effort->boxes : 0,
             found.integrations, in_base(found.hull, in)};

@@ -172,3 +172,31 @@ TEST_CASE("an undefined output decides nothing, and nothing about the others") {
     feasibility_test strict(problem, {});
     CHECK(strict.learn({point_box({1.0})})[0].verdict != box_verdict::inside);
 }
+
+TEST_CASE("sides that come into play after a run has ended are halved, too") {
+    // x' = r, from t = 0.2 on + b (t - 0.2) x^2: with large b it is infinite soon after.
+    auto const model = support::model_of(
+        {2, 2},
+        [](auto const&, auto const& x, auto const& p, auto const&) {
+            return std::vector{p[0] + p[1] * max(x[1] - 0.2, 0.0) * x[0] * x[0], 1 + 0 * x[1]};
+        },
+        [](auto const&, auto const& x, auto const&, auto const&) { return std::vector{x[0]}; });
+    identification_problem problem;
+    problem.model = model;
+    problem.choice.unknown = {"p0", "p1"};
+    problem.prior = box{between(0.5, 1.5), between(0, 1000)};
+    experiment e;
+    e.name = "E";
+    e.initial = box{interval(1.0), interval(0.0)};
+    e.measurements = {{0.1, 0, between(1.05, 1.15)}};
+    for (double t = 2; t < 4; t += 0.05) // r = 1, b = 0
+        e.measurements.push_back({t, 0, between(0.9 + t, 1.1 + t)});
+    problem.experiments = {e};
+    feasibility_test test(problem, {});
+    auto const found = test.learn({problem.prior})[0];
+    CHECK(feasibility_test::reached(found) < 0.05);
+    CHECK(found.smear.empty()); // the widest is
+    auto const later = test.learn({box{between(0.5, 1.5), between(0, 0.001)}})[0];
+    CHECK(feasibility_test::reached(later) == 1);
+    CHECK((later.verdict == box_verdict::outside || later.smear.size() == 2));
+}
