@@ -273,6 +273,16 @@ TEST_CASE("planted disturbances are never below the lower bound", "[least_distur
     check_tally(all, 12);
 }
 
+TEST_CASE("where motions over a prior have no bounds its halves are asked", "[least_disturbance]") {
+    auto p = plant_any(2);
+    for (std::size_t j = 0; j < 2; ++j) p.problem.prior[j] = interval(0.0, 5.0);
+    least_disturbance_options options;
+    options.boxes = 60;
+    auto const found = least_disturbance(p.problem, p.set, options);
+    CHECK(found.size.lower() <= p.size);
+    CHECK(found.boxes >= options.boxes);
+}
+
 TEST_CASE("no weights prove more than is true, and no tube loses the planted motion",
           "[least_disturbance]") {
     using namespace paving_detail;

@@ -41,7 +41,14 @@ public:
         segments_ = witness_.segments(options_->segments);
         seek_witness();
         result_.hull = problem_->prior;
-        if (upper_ > 0) bound_below();
+        // Again with more patience, where parts that say nothing ended it before its time did: a
+        // servo's motor off (docs/servo.md).
+        for (; upper_ > 0 && limit_() && boxes_ < options_->boxes && !(lower_ > 0.5 * upper_);
+             patience_ *= 4) {
+            auto const begun = boxes_;
+            bound_below();
+            if (boxes_ - begun < patience_) break;
+        }
         double const lower = std::min(lower_, upper_);
         result_.size = traits::bounds(lower, upper_);
         if (!(lower > 0)) result_.needed.clear();
@@ -158,7 +165,7 @@ private:
             if (side == prior.size()) break;
             auto const silent = static_cast<std::size_t>(std::count_if(
                 open.begin(), open.end(), [](part const& p) { return !(p.lower > 0); }));
-            if (boxes_ - begun > 12 && 2 * silent > open.size()) break;
+            if (boxes_ - begun > patience_ && 2 * silent > open.size()) break;
             std::pop_heap(open.begin(), open.end(), less);
             auto const whole = std::move(open.back());
             open.pop_back();
@@ -196,7 +203,9 @@ private:
         for (std::size_t j = 0; j < p.set.size(); ++j) {
             double const share = width(p.set[j]) / std::max(width(problem_->prior[j]), 1e-300);
             if (!(share > 1e-6)) continue;
-            double const worth = (j < p.influence.size() ? p.influence[j] : 0) + 1e-12 * share;
+            // Where motions are without bounds no influence is known: the widest side is halved.
+            double const told = j < p.influence.size() ? p.influence[j] : 0;
+            double const worth = (std::isfinite(told) ? told : 0) + 1e-12 * share;
             if (worth > most) {
                 most = worth;
                 side = j;
@@ -284,7 +293,8 @@ private:
     disturbance_witness witness_;
     segment_begins segments_;
     double lower_ = 0, upper_ = detail::infinity;
-    double level_ = 0; ///< up to which lower bounds are proved
+    double level_ = 0;          ///< up to which lower bounds are proved
+    std::size_t patience_ = 12; ///< so many parts are bounded, even where half of them say nothing
     std::size_t boxes_ = 0;
     disturbance_bound result_;
 };
