@@ -81,7 +81,7 @@ TEST_CASE("a misspelt command, option or name is answered by the nearest one") {
     refused({"rank", "--out", out}, "give a data set or --scenario");
     refused({"rank", "--scenario", "tea", "--out", out}, "--measure");
     refused({"disturbance", s.data(), "--out", out}, "name one with its scale");
-    refused({"rank", s.data(), "--with", "draft", "--out", out}, "did you mean 'draught'?");
+    refused({"rank", s.data(), "--with", "draugt", "--out", out}, "did you mean 'draught'?");
     refused({"rank", "--scenario", "tea", "--with", "draught", "--out", out}, "--with");
     refused({"disturbance", s.data(), "--on", "U=1", "--out", out}, "no equation 'U'");
     refused({"disturbance", s.data(), "--on", "T=0", "--out", out}, "a number above 0");
