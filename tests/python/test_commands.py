@@ -124,6 +124,7 @@ class AfterIdentification(Case):
         self.assertEqual(ranked.to_json()["format"], "sivid-ranking-1")
         ranked = sivid.rank(self.model, scenario=S3, unknown={"Sg": (0.03, 0.05)}, measure={"psi": 0.01}, budget=5)
         self.assertIn("Sg", ranked.text)
+        self.assertIn("decay", sivid.rank(fed_culture(), fed_data(decay=0.3), effects="decay", budget=5).text)
 
     def test_disturbance(self):
         found = sivid.disturbance(fed_culture(), fed_data(decay=0.3), {"x": 0.1}, budget=10)
