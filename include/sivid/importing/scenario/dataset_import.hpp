@@ -166,18 +166,20 @@ private:
             import_protocol::suggested_bound note{name, q.mapping->unit, "", {}};
             quantity_mapping const* open = nullptr;
             std::vector<recorded_series> records;
+            std::string first; // stretch of them
             for (auto const& other : open_) {
                 for (auto const& same : inputs ? other.inputs : other.channels) {
                     if (same.mapping->name != name) continue;
                     bool const proposed = same.mapping->error.from == bound_source::kind::proposed;
                     if (proposed) open = same.mapping;
                     if (other.role != scenario_role::fit) continue;
+                    if (records.empty()) first = other.stretch;
                     records.push_back(series_of(same, other));
                     if (proposed) warn(other, records.back(), name);
                 }
             }
             note.candidates = error_bound_candidates(records);
-            if (!inputs && !records.empty()) warn_of_steps(*q.mapping, note.candidates, records);
+            if (!inputs && !records.empty()) warn_of_steps(*q.mapping, note.candidates, first);
             if (open != nullptr) {
                 auto const near =
                     std::ranges::find(note.candidates, "neighbours", &bound_candidate::from);
@@ -224,12 +226,12 @@ private:
 
     /// Says where a stated bound of a channel is less than what its readings are rounded by.
     void warn_of_steps(quantity_mapping const& q, std::vector<bound_candidate> const& candidates,
-                       std::vector<recorded_series> const& records) {
+                       std::string const& stretch) {
         auto const step = std::ranges::find(candidates, "step", &bound_candidate::from);
         if (q.error.from != bound_source::kind::number || step == candidates.end() ||
             !(*nearest(q.error.number) < step->bound * (1 - 1e-9)))
             return;
-        result_.protocol.add(kind::assumed, records.front().name, q.name,
+        result_.protocol.add(kind::assumed, stretch, q.name,
                              text_of("the stated bound ", q.error.number.text(),
                                      " is less than half a step of its readings, ",
                                      nearest_text(step->bound, 3),
