@@ -9,6 +9,8 @@ set(options "")
 if("library" IN_LIST FEATURES)
     list(APPEND options -DSIVID_LIBRARY=ON)
     set(VCPKG_POLICY_SKIP_MISPLACED_CMAKE_FILES_CHECK enabled)   # lib/cmake/sivid, which sividConfig.cmake reads
+    set(VCPKG_POLICY_SKIP_LIB_CMAKE_MERGE_CHECK enabled)
+    set(VCPKG_POLICY_MISMATCHED_NUMBER_OF_BINARIES enabled)      # one for release and debug
 endif()
 
 # What a feature does not ask for is not looked for, either.
