@@ -121,6 +121,13 @@ std::string true_times(campaign const& c, double episode::*time, double usual) {
     return text.empty() ? "-" : text;
 }
 
+/// What is attained is held against what is proved: no digit of it may be lost.
+std::string all_digits(double x) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", x);
+    return text;
+}
+
 /// The data of one scenario of the fit, or of one channel in all of them.
 recording restricted(recording const& data, std::string const& scenario, std::size_t channel) {
     recording part = data;
@@ -156,7 +163,7 @@ std::string best_of_parts(campaign const& c, recording const& data, best_fit con
         fit_problem const problem{part, {}};
         double const best = std::min(fit_without_effects(part, closer).inflation,
                                      problem.inflation(problem.start(whole.values)));
-        text += (text.empty() ? "" : " ") + name + '=' + six_digits(best);
+        text += (text.empty() ? "" : " ") + name + '=' + all_digits(best);
     };
     for (auto const& s : c.scenarios)
         if (!s.plan.holdout) add(s.plan.name, restricted(data, s.plan.name, channel_count), true);
@@ -197,15 +204,13 @@ std::string label_of(campaign const& c, fs::path const& folder) {
     line << '\t' << c.noise << '\t' << outliers << '\t' << true_starts(c) << '\t' << true_gusts(c);
     for (part const which : {part::fit, part::holdout})
         for (bool const with : {false, true})
-            line << '\t' << six_digits(inflation_at_truth(c, with, which));
+            line << '\t' << all_digits(inflation_at_truth(c, with, which));
     auto const data = read_recording(folder);
     auto const best = fit_without_effects(data, true);
-    line << '\t' << six_digits(best.inflation) << '\t' << true_times(c, &episode::from, 0) << '\t';
+    line << '\t' << all_digits(best.inflation) << '\t' << true_times(c, &episode::from, 0) << '\t';
     separator = "";
     for (auto const& [name, value] : best.values) {
-        char text[40];
-        std::snprintf(text, sizeof text, "%.17g", value);
-        line << separator << name << '=' << text;
+        line << separator << name << '=' << all_digits(value);
         separator = " ";
     }
     line << '\t' << best_of_parts(c, data, best) << '\t' << true_times(c, &episode::to, for_ever);
