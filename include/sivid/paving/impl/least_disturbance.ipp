@@ -113,7 +113,7 @@ private:
             if (round == 0 && prior && level_ >= upper_) result_.hull = *prior;
             if (prior) {
                 seek_lower(*prior);
-            } else { // only where there is no witness
+            } else if (level_ > lower_) { // only where there is no witness
                 lower_ = level_;
                 result_.needed = whole_records();
             }
