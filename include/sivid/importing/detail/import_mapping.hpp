@@ -2,6 +2,7 @@
 #ifndef SIVID_IMPORTING_DETAIL_IMPORT_MAPPING_HPP
 #define SIVID_IMPORTING_DETAIL_IMPORT_MAPPING_HPP
 
+#include <sivid/importing/detail/column_formula.hpp>
 #include <sivid/io/dataset/model_names.hpp>
 #include <sivid/io/dataset/unit_conversion.hpp>
 #include <sivid/io/dataset_value.hpp>
@@ -43,16 +44,11 @@ struct bound_source {
     input_place place;
 };
 
-/// A column and what its readings are multiplied by.
-struct column_share {
-    column_reference column;
-    exact_decimal factor = *exact_decimal::parse("1");
-};
-
 /// How an input or a channel of the model follows from columns.
 struct quantity_mapping {
     std::string name, unit;
-    std::vector<column_share> columns = {{}}; ///< the reading is their sum
+    std::vector<column_reference> columns = {{}};
+    std::optional<column_formula> formula; ///< of the columns; nothing: the reading is the one
     unit_conversion conversion;
     std::optional<unsigned> signed_bits;  ///< the readings are registers whose last bit is a sign
     std::optional<unsigned> counter_bits; ///< the readings are counts that wrap

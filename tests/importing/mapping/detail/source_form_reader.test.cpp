@@ -103,15 +103,25 @@ TEST_CASE("a quantity") {
     CHECK_THROWS_AS(read_quantity_mapping(entry(R"({"column": 1, "period": [6, 7]})"), "u", true),
                     input_error);
     auto const sum = read_quantity_mapping(
-        entry(R"({"column": {"sum": {"left": 1, "right": -1}}, "signed_bits": 16, "error": 1})"),
+        entry(R"({"column": {"formula": "left - right", "columns": {"right": 3}},
+                  "signed_bits": 16, "error": 1})"),
         "y", false);
     REQUIRE(sum.columns.size() == 2);
-    CHECK(sum.columns[1].column.heading == "right");
-    CHECK(sum.columns[1].factor == dec("-1"));
+    CHECK(sum.columns[0].heading == "left");
+    CHECK(sum.columns[1].number == 3);
+    CHECK(sum.formula->text() == "left - right");
     CHECK(sum.signed_bits == 16u);
     for (auto const* bad :
-         {R"({"column": {"sum": {}}, "error": 1})", R"({"column": {"sum": {"a": 0}}, "error": 1})",
-          R"({"column": {"a": 1}, "error": 1})",
+         {R"({"column": {"formula": ""}, "error": 1})",
+          R"({"column": {"formula": "3"}, "error": 1})",
+          R"({"column": {"formula": "a b"}, "error": 1})",
+          R"({"column": {"formula": "a*"}, "error": 1})",
+          R"_({"column": {"formula": "f(a)"}, "error": 1})_",
+          R"({"column": {"formula": "a^0.5"}, "error": 1})",
+          R"_({"column": {"formula": "max(a)"}, "error": 1})_",
+          R"({"column": {"formula": "a*1e999"}, "error": 1})",
+          R"({"column": {"formula": "a", "columns": {"b": 1}}, "error": 1})",
+          R"({"column": {"columns": {"b": 1}}, "error": 1})", R"({"column": {"a": 1}, "error": 1})",
           R"({"column": 1, "signed_bits": 16, "counter_bits": 16, "error": 1})"})
         CHECK_THROWS_AS(read_quantity_mapping(entry(bad), "y", false), input_error);
     for (auto const* bad : {R"({"error": 1})", R"({"column": 1})", R"({"column": 1, "error": 0})",

@@ -3,6 +3,9 @@
 
 #include "io/import_support.hpp"
 
+#include <cmath>
+#include <stdexcept>
+
 using namespace sivid;
 using namespace io_support;
 
@@ -30,6 +33,12 @@ result read(quantity_mapping const& q, std::vector<std::vector<std::string>> con
     result r;
     r.quantity = quantity_import{s, q, "A", r.protocol}.read(table_of(rows), r.cell);
     return r;
+}
+
+column_formula formula(std::string const& text) {
+    return {text, [](std::size_t at, std::string const& problem, std::string const&) {
+                throw std::runtime_error(std::to_string(at) + problem);
+            }};
 }
 
 } // namespace
@@ -69,7 +78,7 @@ TEST_CASE("counts are followed, and what is no count is dropped") {
     CHECK(has_note(r.protocol, "less than half its range"));
 }
 
-TEST_CASE("registers have signs, and columns are added up") {
+TEST_CASE("registers have signs, and may be of two columns") {
     quantity_mapping q;
     q.name = "i";
     q.error.from = bound_source::kind::number;
@@ -81,7 +90,8 @@ TEST_CASE("registers have signs, and columns are added up") {
     CHECK(values == std::vector<std::string>{"0", "32767", "-32768", "-1", "-3"});
     CHECK(noted(r.protocol, "no register of 16 bits") == std::vector<std::size_t>{6, 8, 9});
     // Two words of one register, then the bound of its error.
-    q.columns = {{{"hi", 0, {}}, dec("65536")}, {{"lo", 0, {}}, dec("1")}};
+    q.formula = formula("65536*hi + lo");
+    q.columns = {{"hi", 0, {}}, {"lo", 0, {}}};
     q.signed_bits = 32;
     q.error.from = bound_source::kind::column;
     auto const words = read(q, {{"0", "7", "1"}, {"65535", "65534", "1"}, {"1", "", "1"}});
@@ -90,7 +100,51 @@ TEST_CASE("registers have signs, and columns are added up") {
     CHECK(words.quantity.samples[0].reading.value == dec("7"));
     CHECK(words.quantity.samples[1].reading.value == dec("-2"));
     CHECK(noted(words.protocol, "no reading") == std::vector<std::size_t>{4});
-    CHECK(has_note(words.protocol, "the reading is 65536 hi + 1 lo"));
+    CHECK(has_note(words.protocol, "the reading is 65536*hi + lo"));
+}
+
+TEST_CASE("a reading is a formula of columns: exact where it can be, else its enclosure") {
+    quantity_mapping q;
+    q.name = "P";
+    q.formula = formula("V*I/1000 - 0.5");
+    q.columns = {{"V", 0, {}}, {"I", 0, {}}};
+    q.error.from = bound_source::kind::number;
+    auto const power = read(q, {{"12.1", "200"}, {"", "1"}, {"3", "1"}});
+    REQUIRE(power.quantity.samples.size() == 2);
+    auto const held = [](imported_sample const& s, double exact) {
+        auto const& x = s.reading;
+        return enclose(x.value - x.rounding)->lower() <= exact &&
+               exact <= enclose(x.value + x.rounding)->upper() && *nearest(x.rounding) < 1e-14;
+    };
+    CHECK(held(power.quantity.samples[0], 1.92));
+    CHECK(held(power.quantity.samples[1], -0.497));
+    CHECK(noted(power.protocol, "no reading") == std::vector<std::size_t>{3});
+
+    q.formula = formula("sqrt(V^2 - sqr(I))");
+    auto const length = read(q, {{"5", "3"}, {"3", "5"}, {"2", "1"}, {"0", "0"}});
+    REQUIRE(length.quantity.samples.size() == 3);
+    CHECK(held(length.quantity.samples[0], 4));
+    CHECK(held(length.quantity.samples[1], std::sqrt(3)));
+    CHECK(held(length.quantity.samples[2], 0));
+    CHECK(noted(length.protocol, "its formula has no value") == std::vector<std::size_t>{3});
+    CHECK(has_note(length.protocol, "half width is added"));
+    q.formula = formula("1/(V - I)");
+    CHECK(read(q, {{"1", "1"}, {"1e300", "1e-300"}}).quantity.samples.size() == 1);
+
+    q.formula = formula("max(V, -I, 2)*sign(V) + abs(-V)^3");
+    auto const exact = read(q, {{"3", "7"}, {"-1", "0.5"}, {"0", "9"}});
+    REQUIRE(exact.quantity.samples.size() == 3);
+    CHECK(exact.quantity.samples[0].reading.value == dec("30"));
+    CHECK(exact.quantity.samples[1].reading.value == dec("-1"));
+    CHECK(exact.quantity.samples[2].reading.value == dec("0"));
+    CHECK(exact.quantity.samples[1].reading.rounding.is_zero());
+
+    // An angle of a formula is followed.
+    q.formula = formula("2*atan(V/I)");
+    q.period.emplace(dec("6.283185307179586"), dec("6.283185307179587"));
+    auto const angle = read(q, {{"10", "1"}, {"-10", "1"}});
+    REQUIRE(angle.quantity.samples.size() == 2);
+    CHECK(std::abs(*nearest(angle.quantity.samples[1].reading.value) - 3.3409) < 1e-3);
 }
 
 TEST_CASE("angles are followed, with what the period leaves open in the error bound") {

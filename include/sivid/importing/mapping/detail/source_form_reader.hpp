@@ -7,6 +7,7 @@
 #include <sivid/io/dataset/stated_unit.hpp>
 #include <sivid/model/unit.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -27,19 +28,29 @@ namespace mapping_entries {
     return result;
 }
 
-/// A column, or {"sum": {HEADING: factor, ...}}.
-[[nodiscard]] inline std::vector<column_share> column_shares(json_value const& entry) {
-    if (entry.type() != json_value::kind::object) return {{column(entry)}};
-    entry.allow_only({"sum"});
-    std::vector<column_share> result;
-    auto const& sum = entry.at("sum");
-    for (std::size_t i = 0; i < sum.members().size(); ++i) {
-        auto const& factor = sum.members()[i];
-        result.push_back({{sum.name_of(i), 0, factor.place()}, factor.number()});
-        if (result.back().factor.is_zero()) factor.fail("a column times 0", "leave it out");
+/// A column, or {"formula": "65536*hi + lo", "columns": {"hi": "CH 1", "lo": 3}}.
+inline void read_column(json_value const& entry, quantity_mapping& q) {
+    if (entry.type() != json_value::kind::object) {
+        q.columns = {column(entry)};
+        return;
     }
-    if (result.empty()) sum.fail("a sum of no column", "name at least one, with its factor");
-    return result;
+    entry.allow_only({"formula", "columns"});
+    auto const& text = entry.at("formula");
+    q.formula.emplace(text.string(), [&](std::size_t position, std::string const& problem,
+                                         std::string const& remedy) {
+        text.fail(text_of("character ", std::to_string(position + 1), ": ", problem), remedy);
+    });
+    auto const& names = q.formula->names();
+    auto const* stated = entry.find("columns");
+    q.columns.clear();
+    for (auto const& name : names) {
+        auto const* of = stated != nullptr ? stated->find(name) : nullptr;
+        q.columns.push_back(of != nullptr ? column(*of) : column_reference{name, 0, text.place()});
+    }
+    for (std::size_t i = 0; stated != nullptr && i < stated->members().size(); ++i)
+        if (std::find(names.begin(), names.end(), stated->name_of(i)) == names.end())
+            stated->members()[i].fail(text_of("the formula has no ", in_quotes(stated->name_of(i))),
+                                      "leave it out");
 }
 
 /// Bits of a register, or of a counter that wraps.
@@ -311,7 +322,7 @@ inline void read_further_errors(json_value const& entry, bool input, quantity_ma
     quantity_mapping q;
     q.place = entry.place();
     q.name = mapping_entries::name(entry, name);
-    q.columns = column_shares(entry.at("column"));
+    read_column(entry.at("column"), q);
     if (auto const* unit = entry.find("unit")) {
         q.unit = unit->any_string();
         (void)read_unit(*unit);

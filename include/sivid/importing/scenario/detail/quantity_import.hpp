@@ -88,28 +88,39 @@ private:
     using kind = import_protocol::kind;
 
     [[nodiscard]] bool has_error() const { return q_.error.from == bound_source::kind::column; }
-    /// What the cells of a row say together; nothing: one of them is missing.
-    [[nodiscard]] std::optional<exact_decimal> reading(recorded_table::row const& row,
-                                                       std::size_t cell) const {
-        exact_decimal sum;
-        for (std::size_t k = 0; k < q_.columns.size(); ++k) {
-            auto const& share = row.cells[cell + k];
-            if (!share) return std::nullopt;
-            sum = sum + share->times(q_.columns[k].factor);
-        }
-        if (!q_.signed_bits) return sum;
+    [[nodiscard]] bool has_all(recorded_table::row const& row, std::size_t cell) const {
+        for (std::size_t k = 0; k < q_.columns.size(); ++k)
+            if (!row.cells[cell + k]) return false;
+        return true;
+    }
+    /// What the cells of a row say; nothing: one of them is missing, or they say nothing together.
+    [[nodiscard]] std::optional<formula_reading> reading(recorded_table::row const& row,
+                                                         std::size_t cell) const {
+        if (!has_all(row, cell)) return std::nullopt;
+        if (!q_.formula) return with_sign({*row.cells[cell], *row.cells[cell]});
+        std::vector<exact_decimal> readings;
+        for (std::size_t k = 0; k < q_.columns.size(); ++k)
+            readings.push_back(*row.cells[cell + k]);
+        auto const result = (*q_.formula)(readings);
+        return result ? with_sign(*result) : result;
+    }
+    /// Of a register with a sign.
+    [[nodiscard]] formula_reading with_sign(formula_reading const& x) const {
+        if (!q_.signed_bits || !x.is_exact()) return x;
         auto const two_to = [](unsigned bits) {
             return *exact_decimal::parse(std::to_string(std::size_t{1} << bits));
         };
         auto const half = two_to(*q_.signed_bits - 1), whole = two_to(*q_.signed_bits);
-        return sum < half || !(sum < whole) ? sum : sum - whole;
+        if (x.lower < half || !(x.lower < whole)) return x;
+        return {x.lower - whole, x.lower - whole};
     }
     /// Whether a reading can be of a register with a sign.
-    [[nodiscard]] bool in_register(exact_decimal const& raw) const {
+    [[nodiscard]] bool in_register(formula_reading const& raw) const {
         if (!q_.signed_bits) return true;
-        auto const size = magnitude(raw).whole();
+        auto const size = magnitude(raw.lower).whole();
         auto const half = std::size_t{1} << (*q_.signed_bits - 1);
-        return size && (*size < half || (*size == half && raw.is_negative()));
+        return size && raw.is_exact() &&
+               (*size < half || (*size == half && raw.lower.is_negative()));
     }
     [[nodiscard]] bool in_range(exact_decimal const& raw) const {
         return !q_.range || !(raw < q_.range->first || q_.range->second < raw);
@@ -124,9 +135,9 @@ private:
         std::vector<double> readings;
         for (std::size_t k = 0; k < table.rows.size(); ++k) {
             auto const raw = reading(table.rows[k], cell);
-            if (!raw || !in_range(*raw) || !nearest(*raw)) continue;
+            if (!raw || !in_range(raw->lower) || !nearest(raw->lower)) continue;
             rows.push_back(k);
-            readings.push_back(*nearest(*raw));
+            readings.push_back(*nearest(raw->lower));
         }
         auto const found = smeared_leaps(readings, period());
         for (std::size_t i = 0; i < rows.size(); ++i) result[rows[i]] = found[i];
@@ -141,23 +152,28 @@ private:
     /// The sample of a row; nothing: there is none, which is noted.
     [[nodiscard]] std::optional<imported_sample> read_row(recorded_table::row const& row,
                                                           std::size_t cell, bool smeared) {
-        auto raw = reading(row, cell);
+        auto const read = reading(row, cell);
         std::string why;
-        if (!raw)
-            why = "no reading";
-        else if (!in_register(*raw))
+        if (!read)
+            why = has_all(row, cell) ? "its formula has no value" : "no reading";
+        else if (!in_register(*read))
             why = text_of("no register of ", std::to_string(*q_.signed_bits), " bits");
-        else if (!in_range(*raw))
+        else if (!in_range(read->lower) || !in_range(read->upper))
             why = text_of("not in the possible range [", q_.range->first.text(), ", ",
                           q_.range->second.text(), "]");
         else if (smeared)
             why = "between the ends of its range while those around it go through them: the "
                   "recorder has averaged over the leap";
         if (!why.empty()) return drop(row.line, why), std::nullopt;
-        auto const recorded = nearest(*raw).value_or(0);
-        if (counter_ && !(raw = followed(*counter_, *raw, row.line))) return std::nullopt;
-        auto bounds = std::pair{*raw, *raw};
+        auto const recorded = nearest(read->lower).value_or(0);
+        auto bounds = std::pair{read->lower, read->lower};
+        if (counter_) {
+            auto const count = followed(*counter_, read->lower, row.line);
+            if (!count) return std::nullopt;
+            bounds = {*count, *count};
+        }
         if (turns_ && !followed(*turns_, bounds, row.line)) return std::nullopt;
+        bounds.second = bounds.second + (read->upper - read->lower);
         imported_sample sample;
         sample.line = row.line;
         sample.time = row.time;
@@ -255,12 +271,9 @@ private:
             doubt_turns(result);
         else
             suspect_period(result);
-        std::string sum;
-        for (auto const& share : q_.columns)
-            sum +=
-                text_of(sum.empty() ? "" : " + ", share.factor.text(), " ", share.column.heading);
-        if (q_.columns.size() > 1)
-            protocol_.add(kind::changed, scenario_, q_.name, "the reading is " + sum);
+        if (q_.formula)
+            protocol_.add(kind::changed, scenario_, q_.name,
+                          "the reading is " + q_.formula->text());
         if (auto const text = q_.conversion.text(); !text.empty())
             protocol_.add(kind::changed, scenario_, q_.name,
                           text + (q_.unit.empty() ? "" : " [" + q_.unit + "]"));

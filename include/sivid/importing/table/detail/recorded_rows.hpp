@@ -35,7 +35,7 @@ struct recorded_table {
     for (auto const* list : {&s.inputs, &s.channels, &s.watched})
         for (auto const& q : *list) {
             if (q.elsewhere) continue;
-            for (auto const& share : q.columns) result.push_back(share.column);
+            result.insert(result.end(), q.columns.begin(), q.columns.end());
             if (q.error.from == bound_source::kind::column) result.push_back(q.error.column);
         }
     if (s.windows && s.windows->rows) result.push_back(s.windows->rows->column);
