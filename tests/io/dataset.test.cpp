@@ -249,6 +249,8 @@ TEST_CASE("bad input gives one error that names the place") {
          "/scenarios/0/duration", "not above 0"},
         {"unknown state", json, "\"v\": [0, 0]", "\"w\": [0, 0]", "/scenarios/0/initial/w",
          "unknown state"},
+        {"initial outside of the model's range", json, "[0.1, 0.3]", "[50, 60]",
+         "/scenarios/0/initial/u", "never is where the model keeps it, from -8 to 8"},
         {"initial lower above upper", json, "[0.1, 0.3]", "[0.3, 0.1]", "/scenarios/0/initial/u",
          "lower is above upper"},
         {"initial is a number", json, "[0.1, 0.3]", "0.1", "/scenarios/0/initial/u",

@@ -102,7 +102,8 @@ struct search_task {
           problem{posed(r, data, c.effects, disturbances, c.outliers, remembering)},
           title{title_of(data, c.effects, disturbances, problem.model)},
           digest{dataset_digest(c.dataset)},
-          further{assumptions_of(r, data, c.effects, disturbances, problem.model)} {
+          further{assumptions_of(r, data, c.effects, disturbances, problem)} {
+        for (auto const& words : creeping_words(problem)) progress_line(c.quiet).note(words);
         if (!c.picture.empty())
             require_known(c.picture, names_in(r.model.about.channels), "channel");
         for (auto const& e : problem.experiments) {

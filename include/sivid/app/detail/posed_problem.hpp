@@ -14,6 +14,7 @@
 #include <sivid/io/result/problem_digest.hpp>
 #include <sivid/io/text/printable_text.hpp>
 #include <sivid/model/affected_problem.hpp>
+#include <sivid/model/structure/rounded_sign.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -75,15 +76,16 @@ inline std::vector<effect> effects_of(robot const& r, dataset const& data,
 }
 
 /// What a data set's result with effects and disturbances rests on besides what is proved.
-/// @param posed  the model of the posed problem
 inline std::vector<std::string> assumptions_of(robot const& r, dataset const& data,
                                                std::vector<std::string> const& effects,
                                                allowed_disturbances const& disturbances,
-                                               recorded_model const& posed) {
+                                               identification_problem const& posed) {
     auto result = data.assumptions;
+    for (auto& words : creeping_words(posed)) result.push_back(std::move(words));
     for (auto& words : wrap_assumptions(effects_of(r, data, effects)))
         result.push_back(std::move(words));
-    for (auto& words : assumptions_of(disturbances, posed)) result.push_back(std::move(words));
+    for (auto& words : assumptions_of(disturbances, posed.model))
+        result.push_back(std::move(words));
     return result;
 }
 

@@ -171,7 +171,7 @@ inline int check_identification(robot const& r, check_command const& c) {
     options.seconds = c.budget.value_or(c.all ? 3600 : 10);
     apply(c.how, options.certificate);
     options.further_assumptions =
-        assumptions_of(r, data, stored.effects, stored.disturbances, problem.model);
+        assumptions_of(r, data, stored.effects, stored.disturbances, problem);
     options.certificate.keep_going = wanted;
     auto const findings = work(problem, stored, options, c.multiprecision);
     auto const by = c.how.method == "taylor" ? std::string{} : ", " + c.how.method;

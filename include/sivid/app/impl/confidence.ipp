@@ -59,7 +59,7 @@ inline confident_region region_of(robot const& r, confidence_command const& c, d
     options.search.seconds = c.budget;
     options.search.keep_going = wanted;
     auto region = confidence_region(problem, c.probability, options);
-    for (auto const& words : assumptions_of(r, data, c.effects, {}, problem.model))
+    for (auto const& words : assumptions_of(r, data, c.effects, {}, problem))
         region.assumptions.push_back(words);
     if (!region.found.paving.has_outer())
         region.remarks.push_back("nothing of the prior is in the region: the truth lies elsewhere, "

@@ -55,6 +55,7 @@ struct least_disturbance_answer {
         for (auto const& asked : on) (void)take_out(r, others.equations, asked.first);
         for (auto const& asked : errors) (void)take_out(r, others.channels, asked.first);
         problem = posed(r, data, c.effects, others);
+        for (auto const& words : creeping_words(problem)) progress_line(c.quiet).note(words);
         least_disturbance_options options;
         options.seconds = c.budget / static_cast<double>(c.curve + 1);
         options.keep_going = wanted;
@@ -67,7 +68,7 @@ struct least_disturbance_answer {
         } catch (std::invalid_argument const& e) {
             throw bad_request(e.what());
         }
-        for (auto const& words : assumptions_of(r, data, c.effects, others, problem.model))
+        for (auto const& words : assumptions_of(r, data, c.effects, others, problem))
             found.assumptions.push_back(words);
     }
 };

@@ -151,7 +151,7 @@ SIVID_DECL int run(robot const& r, rank_command const& c) {
     files.commit();
     detail::print_channels(problem, found);
     if (worth != nullptr) detail::print_worth(problem, *worth);
-    for (auto const& words : data ? assumptions_of(r, *data, c.effects, disturbances, problem.model)
+    for (auto const& words : data ? assumptions_of(r, *data, c.effects, disturbances, problem)
                                   : assumptions_of(disturbances, problem.model))
         result_stream() << "  - " << words << "\n";
     result_stream() << "  written: " << (c.out / "ranking.html").string() << " and ranking.json\n";

@@ -13,6 +13,7 @@
 #include <sivid/io/dataset_value.hpp>
 #include <sivid/io/text/json_document.hpp>
 #include <sivid/number/text/joined.hpp>
+#include <sivid/number/text/nearest_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -239,6 +240,12 @@ private:
             auto const start =
                 range(plain ? entry : entry.at("range"), plain ? nullptr : entry.find("unit"),
                       model_.states[index], "state", "initial value");
+            auto const& own = model_.state_ranges.at(index);
+            if (disjoint(start.enclosure, own))
+                entry.fail(text_of("the state never is where the model keeps it, from ",
+                                   nearest_text(own.lower(), 6), " to ",
+                                   nearest_text(own.upper(), 6)),
+                           "correct it, or widen the state's range in the model");
             result.initial[index] = {start.enclosure, start};
         }
     }
