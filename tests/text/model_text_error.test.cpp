@@ -67,7 +67,7 @@ TEST_CASE("names that are wrong are told") {
     says("kt = \"", "i = 3\nkt = \"", 18, 1, "two things are called 'i'");
     says("prior = \"[0.5", "priar = \"[0.5", 17, 7, "unknown key 'priar'");
     says("name = ", "nme = ", 3, 1, "unknown key 'nme'; did you mean 'name'?");
-    says("sivid-model-1", "sivid-model-2", 2, 10, "no model in the format");
+    says("sivid-model-1", "sivid-model-2", 2, 10, "no file in the format");
     says("sign(w)", "sgn(w)", 5, 10, "unknown function 'sgn'; did you mean 'sign'?");
     says("delay = \"late\"", "delay = \"J\"", 15, 27, "the delay 'J' is in g m^2");
 }
@@ -188,7 +188,7 @@ TEST_CASE("files that are no text are refused") {
     refuses(wide.substr(2), "UTF-16");
     refuses(texts::motor + std::string(1, '\0'), "a NUL character");
     refuses(texts::motor + "\xC0", "not UTF-8");
-    refuses("", "no model in the format");
+    refuses("", "no file in the format");
     refuses(std::string(300'000, '#'), "larger than 200 kB");
     refuses("# " + std::string(20'000, 'x'), "a line of more than 10000 bytes");
     refuses(texts::with(texts::motor, "20 A", std::string(9000, '[')), "a number is needed");

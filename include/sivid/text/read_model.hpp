@@ -27,6 +27,19 @@ namespace sivid {
 /// @param name  of the text, for messages
 [[nodiscard]] SIVID_DECL text_model model_from_text(std::string text, std::string const& name);
 
+/// Reads effects of a model in C++ from a file of the format sivid-effects-1: named parts in [let],
+/// and [effect.NAME] as in a model's file, over the model's states, constants, inputs and channels.
+/// @guarantee  as `read_model`
+/// @throws model_text_error, input_error  as there; also where the model has names that formulas
+///                                        cannot hold, or a unit that is none
+[[nodiscard]] SIVID_DECL std::vector<effect> read_effects(std::filesystem::path const& file,
+                                                          recorded_model const& on);
+
+/// The same from a text.
+/// @param name  of the text, for messages
+[[nodiscard]] SIVID_DECL std::vector<effect>
+effects_from_text(std::string text, std::string const& name, recorded_model const& on);
+
 } // namespace sivid
 
 #ifndef SIVID_COMPILED

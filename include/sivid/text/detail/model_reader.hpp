@@ -38,6 +38,7 @@ public:
         read_inputs();
         read_constants();
         read_parts();
+        read_equations();
         auto& g = result_.model.g;
         // The leaves in the order in which those of a functor are entered.
         auto const enter = [&g](operation op, std::size_t n) {
@@ -62,8 +63,49 @@ public:
         return std::move(result_);
     }
 
+    /// The effects of a file that has these alone, on a model that is known.
+    [[nodiscard]] std::vector<effect> read_effects(recorded_model const& on) {
+        whole_.allow({"format", "let", "effect"});
+        require_format("sivid-effects-1");
+        result_.model = on;
+        names_->time = unit(about().time_unit);
+        names_->items["t"] = {kind::time, names_->time};
+        names_->items["pi"] = {kind::pi};
+        declare_all(kind::state, about().states);
+        declare_all(kind::input, about().inputs);
+        declare_all(kind::constant, about().constants);
+        read_parts();
+        effect_reader effects(source_, names_, result_.model, constant_ranges());
+        auto const section = whole_.section("effect");
+        if (!section) source_->fail(0, "the file has no effect", "add a table [effect.NAME]");
+        auto result = effects.read(*section);
+        for (auto const& name : names_->all(kind::constant)) names_->used.insert(name);
+        require_used();
+        return result;
+    }
+
 private:
     using kind = model_names::kind;
+
+    void require_format(std::string const& wanted) {
+        auto const format = whole_.text("format");
+        if (!format || *format != wanted)
+            source_->fail(format ? whole_.find("format")->value : 0,
+                          "this is no file in the format " + wanted,
+                          "begin the file by: format = " + in_quotes(wanted));
+    }
+    template <class Items>
+    void declare_all(kind what, Items const& items) {
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            unit const in(items[i].unit);
+            if (!in.fault().empty())
+                source_->fail(0,
+                              "the model has " + in_quotes(items[i].name) + " in " +
+                                  in_quotes(items[i].unit) + ", which is no unit",
+                              "correct the model");
+            names_->declare(*source_, items[i].name, {what, in, i, 0});
+        }
+    }
     static constexpr std::size_t most_parts = 500; // their formulas are evaluated by recursion
 
     model_description& about() { return result_.model.about; }
@@ -71,11 +113,7 @@ private:
     void read_head() {
         whole_.allow({"format", "name", "about", "time", "states", "inputs", "constants", "let",
                       "equations", "outputs", "effect", "disturbance", "error"});
-        auto const format = whole_.text("format");
-        if (!format || *format != "sivid-model-1")
-            source_->fail(format ? whole_.find("format")->value : 0,
-                          "this is no model in the format sivid-model-1",
-                          "begin the file by: format = \"sivid-model-1\"");
+        require_format("sivid-model-1");
         auto const* name = whole_.find("name");
         if (name == nullptr) source_->fail(0, "the model has no name", "add: name = \"robot\"");
         about().name = whole_.string_of(*name);
@@ -184,15 +222,17 @@ private:
         about().constants.push_back(std::move(c));
     }
 
+    void add_part(std::string const& name, formula is, std::size_t position) {
+        names_->declare(*source_, name, {kind::part, {}, names_->parts.size(), position});
+        names_->parts.push_back({name, used(std::move(is))});
+        if (names_->parts.size() > most_parts)
+            source_->fail(position, "more than 500 named parts", "write fewer, longer ones");
+    }
     void read_parts() {
-        auto const add = [&](std::string const& name, formula is, std::size_t position) {
-            names_->declare(*source_, name, {kind::part, {}, names_->parts.size(), position});
-            names_->parts.push_back({name, used(std::move(is))});
-            if (names_->parts.size() > most_parts)
-                source_->fail(position, "more than 500 named parts", "write fewer, longer ones");
-        };
         if (auto const let = whole_.section("let"))
-            for (auto const& e : let->entries()) add(e.name, let->formula_of(e), e.key);
+            for (auto const& e : let->entries()) add_part(e.name, let->formula_of(e), e.key);
+    }
+    void read_equations() {
         if (whole_.find("equations") == nullptr)
             source_->fail(source_->text().size(), "the model has no equations",
                           "add: equations = \"w' = -b*w/J\", in front of all tables");
@@ -201,7 +241,7 @@ private:
                 source_->fail(s.position, "the equations of a model have = alone",
                               "+= and the like stand in effects");
             if (!s.is_rate && s.left.nodes.empty()) {
-                add(s.name, std::move(s.by), s.position);
+                add_part(s.name, std::move(s.by), s.position);
             } else {
                 names_->use(s.left);
                 s.by = used(std::move(s.by));
