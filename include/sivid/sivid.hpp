@@ -83,6 +83,7 @@
 #include <sivid/model/structure/combination.hpp>
 #include <sivid/model/structure/find_combinations.hpp>
 #include <sivid/model/structure/homogeneity.hpp>
+#include <sivid/model/structure/rounded_sign.hpp>
 #include <sivid/model/structure/state_sum.hpp>
 #include <sivid/model/structure/states_seen.hpp>
 #include <sivid/model/structure/symmetry.hpp>

@@ -9,6 +9,7 @@
 #include <sivid/enclosure/tube.hpp>
 #include <sivid/paving/identify.hpp>
 #include <sivid/paving/products/dependence.hpp>
+#include <sivid/paving/products/detail/drawing.hpp>
 
 using namespace sivid;
 using support::between;
@@ -125,6 +126,34 @@ TEST_CASE("a sum is one parameter, forward and backward, with the same trajector
     auto twice = sums;
     twice.push_back(sums[0]);
     CHECK(reduction::find(s.problem, s.structure, twice)->problem().prior.size() == 3);
+}
+
+TEST_CASE("what a search in sums leaves is told where no time is left to draw it") {
+    auto const rate = [](auto const&, auto const& x, auto const& p, auto const&) {
+        return std::vector{(p[0] - p[1] * x[0]) / (p[2] + p[3])};
+    };
+    auto const s =
+        make(4, rate, {between(0.5, 2), between(0.5, 1.5), between(1, 2), between(0.25, 0.5)});
+    auto const map = reduction::find(s.problem, s.structure, sums_in(s.problem));
+    REQUIRE(map);
+    auto const& small = map->problem().prior;
+    auto part = small;
+    std::vector<std::size_t> own;
+    for (std::size_t k = 0; k < part.size(); ++k)
+        if (!map->sides()[k].product) {
+            own.push_back(map->sides()[k].parameter);
+            part[k] = between(part[k].lower(), mid(part[k]));
+        }
+    REQUIRE_FALSE(own.empty());
+    subpaving reduced(small);
+    reduced.add(part, box_verdict::undecided);
+    for (double const seconds : {0.0, 1.0}) {
+        identification found(s.problem.prior);
+        paving_detail::draw(found, *map, reduced, s.problem.prior, {.seconds = seconds}, 100);
+        for (auto const j : own) CHECK(width(found.hull[j]) < 0.6 * width(s.problem.prior[j]));
+        CHECK(found.paving.outer_volume().upper() < 0.6);
+        CHECK(subset(map->backward(s.problem.prior, part), found.hull));
+    }
 }
 
 TEST_CASE("ranges of products go to and fro with the box of the reduced problem") {

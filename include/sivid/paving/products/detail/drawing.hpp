@@ -180,18 +180,18 @@ inline void draw(identification& result, reduction const& map, subpaving const& 
     drawing.resume = nullptr;
     drawing.proof_bytes = 0;
     result.paving = drawn(test, map, prior, drawing);
+    auto const left = reduced.has_outer() ? map.backward(prior, reduced.outer_hull()) : prior;
     if (map.has_sums()) { // of their preimages neither volumes nor certificates are known
-        result.hull = result.paving.outer_hull();
+        result.paving = within(result.paving, left); // boxes that wait, too
         result.proof = {};
-        return;
+    } else {
+        auto const [inner, outer] = preimage_volumes(map, reduced, prior);
+        result.paving.set_volumes(inner, outer);
+        result.volumes = volume_source::preimage;
+        result.products.emplace(product_paving{map, reduced});
     }
-    auto const [inner, outer] = preimage_volumes(map, reduced, prior);
-    result.paving.set_volumes(inner, outer);
-    result.volumes = volume_source::preimage;
-    result.products.emplace(product_paving{map, reduced});
     result.hull = result.paving.outer_hull();
-    if (!result.paving.has_outer()) return;
-    result.hull = intersect(result.hull, map.backward(prior, reduced.outer_hull()));
+    if (result.paving.has_outer()) result.hull = intersect(result.hull, left);
 }
 
 } // namespace paving_detail
