@@ -65,6 +65,61 @@ struct arm {
     }
 };
 
+/// An arm that turns on a column, with a shoulder and an elbow in its vertical plane: thin links,
+/// and rotors behind gears of 0.3 and 0.1 kg m^2 at shoulder and elbow, 0.2 at the column, as
+/// known.
+struct turning_arm {
+    static constexpr auto name = "turning arm";
+    static constexpr auto states = sivid::states({{"q1", "rad", 10},
+                                                  {"q2", "rad", 10},
+                                                  {"q3", "rad", 10},
+                                                  {"w1", "rad/s", 20},
+                                                  {"w2", "rad/s", 20},
+                                                  {"w3", "rad/s", 20}});
+    static constexpr auto inputs = sivid::inputs({{"T1", "N m"}, {"T2", "N m"}, {"T3", "N m"}});
+    static constexpr auto channels = sivid::channels({{"q1", "rad"}, {"q2", "rad"}, {"q3", "rad"}});
+    static constexpr auto constants = sivid::constants({{"a", "kg m^2", 0.4_dec},
+                                                        {"b", "kg m^2", 0.15_dec},
+                                                        {"c", "kg m^2", 0.12_dec},
+                                                        {"f1", "N m s", 0.4_dec},
+                                                        {"f2", "N m s", 0.5_dec},
+                                                        {"f3", "N m s", 0.2_dec},
+                                                        {"g2", "N m", 9_dec},
+                                                        {"g3", "N m", 3_dec}});
+    template <class T>
+    matrix_of<turning_arm, T> mass(T const&, vec<T, 6> const& x, vec<T, 8> const& p,
+                                   vec<T, 3> const&) const {
+        auto const &a = p[0], &b = p[1], &c = p[2];
+        T const near = cos(x[1]), far = cos(x[1] + x[2]), bend = cos(x[2]);
+        T const m11 = 0.2_dec + a * sqr(near) + b * sqr(far) + 2 * c * near * far,
+                m22 = 0.3_dec + a + b + 2 * c * bend, m23 = b + c * bend, m33 = 0.1_dec + b;
+        return {{{1, 0, 0, 0, 0, 0},
+                 {0, 1, 0, 0, 0, 0},
+                 {0, 0, 1, 0, 0, 0},
+                 {0, 0, 0, m11, 0, 0},
+                 {0, 0, 0, 0, m22, m23},
+                 {0, 0, 0, 0, m23, m33}}};
+    }
+    template <class T>
+    vec<T, 6> force(T const&, vec<T, 6> const& x, vec<T, 8> const& p, vec<T, 3> const& u) const {
+        auto const &a = p[0], &b = p[1], &c = p[2], &w1 = x[3], &w2 = x[4], &w3 = x[5];
+        T const near = cos(x[1]), far = cos(x[1] + x[2]), rise = sin(x[1]), up = sin(x[1] + x[2]);
+        // Halves of the slopes of m11 by q2 and q3, and of m22 by q3.
+        T const s2 = -a * near * rise - b * far * up - c * (rise * far + near * up),
+                s3 = -b * far * up - c * near * up, h = c * sin(x[2]);
+        return {w1,
+                w2,
+                w3,
+                u[0] - p[3] * w1 - 2 * w1 * (s2 * w2 + s3 * w3),
+                u[1] - p[4] * w2 + h * w3 * (2 * w2 + w3) + s2 * sqr(w1) - p[6] * near - p[7] * far,
+                u[2] - p[5] * w3 - h * sqr(w2) + s3 * sqr(w1) - p[7] * far};
+    }
+    template <class T>
+    vec<T, 3> observe(T const&, vec<T, 6> const& x, vec<T, 8> const&, vec<T, 3> const&) const {
+        return {x[0], x[1], x[2]};
+    }
+};
+
 /// A car on one track whose tyres follow Pacejka's formula; everything is measured.
 struct car {
     static constexpr auto name = "car";
@@ -202,8 +257,8 @@ struct altitude {
     }
 };
 
-/// The barrel of an extruder, above the surroundings: the mains limit its heater to a share of 3 kW;
-/// only the barrel is measured.
+/// The barrel of an extruder, above the surroundings: the mains limit its heater to a share of 3
+/// kW; only the barrel is measured.
 struct barrel {
     static constexpr auto name = "barrel";
     static constexpr auto states = sivid::states({{"heater", "K", 400}, {"barrel", "K", 300}});

@@ -40,6 +40,17 @@ driven moving_arm() {
                                   0.5 * std::sin(4.3 * t + 1) + 0.4 * std::sin(9 * t)};
             }};
 }
+driven moving_turning_arm() {
+    return {record_model(turning_arm()), {0, 0.3, 0.4, 0, 0, 0}, [](double t, values const& x) {
+                double const near = std::cos(x[1]), far = std::cos(x[1] + x[2]);
+                return values{4 * (0.8 * std::sin(0.9 * t) - x[0]) - x[3] + std::sin(3.3 * t) +
+                                  0.8 * std::sin(7.1 * t + 1),
+                              9 * near + 3 * far + 6 * (0.4 * std::sin(1.3 * t + 1) + 0.3 - x[1]) -
+                                  x[4] + 2 * std::sin(3.1 * t) + 1.5 * std::sin(7 * t + 2),
+                              3 * far + 3 * (0.5 * std::sin(1.9 * t) + 0.4 - x[2]) - 0.3 * x[5] +
+                                  std::sin(4.3 * t + 1) + 0.8 * std::sin(9 * t)};
+            }};
+}
 driven driven_car() {
     return {record_model(car()),
             {0, 0, 0, 15, 0, 0},
@@ -233,6 +244,9 @@ int main(int argc, char** argv) {
         {{"arm, 10 s, torque at 1 kHz, +-10 %, start +-0.1", 10, 100, 0.001, 0.002, 0.1, 0.1},
          moving_arm<false>},
         {{"arm, 10 s, torque at 1 kHz, +-20 %", 10, 100, 0.001, 0.002, 0.2}, moving_arm<false>},
+        {{"arm of three joints, 10 s, torque at 100 Hz, +-10 %"}, moving_turning_arm},
+        {{"arm of three joints, 10 s, torque at 1 kHz, +-20 %", 10, 100, 0.001, 0.002, 0.2},
+         moving_turning_arm},
         {{"arm with dry friction, 10 s, torque at 1 kHz, +-10 %", 10, 100, 0.001},
          moving_arm<true>},
         {{"arm with dry friction, 10 s, torque at 1 kHz, +-20 %", 10, 100, 0.001, 0.002, 0.2},
