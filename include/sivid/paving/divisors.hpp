@@ -38,7 +38,8 @@ struct divisor_options {
 /// states within their own limits, times and inputs within the range of the records. A trajectory
 /// on which a divisor vanishes ends there, and over boxes of parameters and states in which one
 /// does no trajectory is enclosed; for an implicit model, those are where its matrix is singular.
-/// @returns  those that depend on anything; nothing for models with delays, plays or rate limits
+/// @returns  those that depend on anything and were looked at before `keep_going` ended it; nothing
+///           for models with delays, plays or rate limits
 /// @throws std::invalid_argument  for a problem that is not one
 /// @guarantee  `none` and `some` are proved; `unknown` and `near` are no claims
 /// @cost  at most `options.boxes` evaluations for each divisor: microseconds a box

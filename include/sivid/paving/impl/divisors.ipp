@@ -160,8 +160,9 @@ using named_equations = std::vector<std::pair<std::string, std::vector<bool>>>;
 }
 
 /// Searches the zeros of a divisor.
-inline void find_zeros(divisor& d, zero_test test, leaf_names const& names,
-                       divisor_options const& options) {
+/// @returns false where no time was left to look
+[[nodiscard]] inline bool find_zeros(divisor& d, zero_test test, leaf_names const& names,
+                                     divisor_options const& options) {
     inversion_options search;
     search.boxes = options.boxes;
     search.keep_outside = false;
@@ -172,9 +173,12 @@ inline void find_zeros(divisor& d, zero_test test, leaf_names const& names,
     // An input that is not bounded (a formula with a pole) leaves it open.
     bool const bounded = std::all_of(whole.begin(), whole.end(),
                                      [](interval const& side) { return is_bounded(side); });
-    if (bounded && !invert(test, whole, search).paving.has_outer()) {
+    bool none = bounded && test(whole).verdict == box_verdict::outside;
+    if (!none && !search.keep_going() && !test.vanishes()) return false;
+    none = none || (bounded && !invert(test, whole, search).paving.has_outer());
+    if (none) {
         d.zeros = zeros::none;
-        return;
+        return true;
     }
     if (test.vanishes()) d.zeros = zeros::some;
     auto const name_of = [&names](zero_test::leaf const& l) {
@@ -186,6 +190,7 @@ inline void find_zeros(divisor& d, zero_test test, leaf_names const& names,
     for (std::size_t i = 0; i < test.nearest().size(); ++i) {
         d.near.emplace_back(name_of(test.leaves()[i]), test.nearest()[i]);
     }
+    return true;
 }
 
 } // namespace paving_detail
@@ -215,8 +220,8 @@ SIVID_DECL std::vector<divisor> divisors_of(identification_problem const& proble
         if (d.equations.empty()) continue; // of derivatives alone
         done.push_back(*below);
         if (is_short(g, *below, names, 40)) d.formula = formula_text(g, *below, names);
-        paving_detail::find_zeros(d, {g, *below, domain}, names, options);
-        result.push_back(std::move(d));
+        if (paving_detail::find_zeros(d, {g, *below, domain}, names, options))
+            result.push_back(std::move(d));
     }
     return result;
 }
