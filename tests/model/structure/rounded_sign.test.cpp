@@ -63,10 +63,12 @@ TEST_CASE("a model whose friction is rounded off is told where the data stand st
         for (int k = 0; k < 3; ++k) read(q, 1, 6 + 0.1 * k, 0.01, 0.02);
         CHECK(creeping_words(q).size() == 1);
     }
+    auto idle = root; // friction that is known to be 0
+    idle.choice = {{"p1"}, {{"p0", interval(0.0)}}};
     auto exact = pushed([](auto w, auto k, auto) { return k * sign(w); });
     auto drag = pushed([](auto w, auto k, auto s) { return k * w / sqrt(1.0 + sqr(w * s)); });
     auto sine = pushed([](auto w, auto k, auto s) { return k / sqrt(sqr(w) + sqr(s)); });
-    for (auto* p : {&exact, &drag, &sine}) {
+    for (auto* p : {&idle, &exact, &drag, &sine}) {
         for (int k = 0; k < 11; ++k) read(*p, 0, 0.1 * k, 1, 0.001);
         CHECK(creeping_words(*p).empty());
     }

@@ -298,6 +298,7 @@ public:
         options_.test.workers = threads_for(command_.threads);
         options_.menu = recorded_manoeuvres(problem_);
         options_.menu.insert(options_.menu.end(), of_.manoeuvres.begin(), of_.manoeuvres.end());
+        for (auto const& words : creeping_words(problem_)) progress_.note(words);
         watch(options_, progress_);
         watch_interrupts();
         if (command_.job != nullptr) command_.job->watch_interrupts();
@@ -401,6 +402,7 @@ private:
         told.dataset = command_.dataset;
         told.effects = names_in(holdout::effects_of(answer, run.catalogue));
         told.verbose = command_.verbose;
+        told.quiet = true; // what it would note is said already
         auto bare = of_;
         bare.disturbances = {};
         search_task task(bare, told, nullptr);

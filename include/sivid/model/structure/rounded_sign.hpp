@@ -2,8 +2,9 @@
 #ifndef SIVID_MODEL_STRUCTURE_ROUNDED_SIGN_HPP
 #define SIVID_MODEL_STRUCTURE_ROUNDED_SIGN_HPP
 
+#include <sivid/model/bound_model.hpp>
 #include <sivid/model/graph/graph_range.hpp>
-#include <sivid/model/parameter_choice.hpp>
+#include <sivid/model/graph/rewrite.hpp>
 #include <sivid/model/problem.hpp>
 #include <sivid/number/text/nearest_text.hpp>
 
@@ -25,15 +26,19 @@ namespace model_detail {
 /// atan(w/s): the state, and s.
 class rounded_signs {
 public:
-    explicit rounded_signs(identification_problem const& p)
-        : g_{p.model.g},
-          ranges_{entire(), box(std::vector(p.model.rate.size(), entire())),
-                  box(constant_ranges(p.model, p.choice, p.prior)),
-                  box(std::vector(p.model.about.inputs.size(), entire()))} {}
+    /// @param prior  of the model's unknown constants
+    rounded_signs(bound_model const& m, box const& prior)
+        : m_{m},
+          g_{m.g},
+          ranges_{entire(), box(std::vector(m.state_count(), entire())), prior,
+                  box(std::vector(m.about.inputs.size(), entire()))} {}
 
     [[nodiscard]] std::map<std::size_t, double> find() const {
         std::map<std::size_t, double> found;
-        for (auto const& n : g_.nodes()) {
+        auto const needed = operands_of(g_, m_.rate);
+        for (std::size_t k = 0; k < g_.size(); ++k) {
+            if (!needed[k]) continue;
+            auto const& n = g_.nodes()[k];
             auto const one = n.op == operation::div                               ? of_quotient(n)
                              : n.op == operation::tanh || n.op == operation::atan ? of_argument(n.a)
                                                                                   : std::nullopt;
@@ -84,6 +89,7 @@ private:
         return mag(at.value(of));
     }
 
+    bound_model const& m_;
     graph const& g_;
     leaf_ranges ranges_;
 };
@@ -91,7 +97,8 @@ private:
 /// Readings of one channel in a row that one value explains.
 struct resting_readings {
     double from = 0, to = 0;
-    interval value;
+    interval value;   ///< in all of their bounds
+    double error = 0; ///< the width of the widest
 };
 
 /// The longest such rows, at least two readings each.
@@ -104,11 +111,12 @@ struct resting_readings {
         if (readings > 0 && !disjoint(rows.back().value, m.bound)) {
             rows.back().to = m.time;
             rows.back().value = intersect(rows.back().value, m.bound);
+            rows.back().error = std::max(rows.back().error, width(m.bound));
             ++readings;
             continue;
         }
         if (readings == 1) rows.pop_back();
-        rows.push_back({m.time, m.time, m.bound});
+        rows.push_back({m.time, m.time, m.bound, width(m.bound)});
         readings = 1;
     }
     if (readings == 1) rows.pop_back();
@@ -117,7 +125,7 @@ struct resting_readings {
 
 /// What a channel shows of a state: it itself, the place whose rate it is, or something else.
 enum class shown_speed { itself, place, no };
-[[nodiscard]] inline shown_speed shows(recorded_model const& m, std::size_t channel,
+[[nodiscard]] inline shown_speed shows(bound_model const& m, std::size_t channel,
                                        std::size_t state) {
     auto const is = [&](node_id of) {
         return m.g[of].op == operation::state && static_cast<std::size_t>(m.g[of].index) == state;
@@ -133,22 +141,27 @@ enum class shown_speed { itself, place, no };
 
 /// Where the data stand still and a sign that the model rounds off, w/sqrt(w^2 + s^2) in place of
 /// sign(w), lets it move by about s under a load that friction would hold. One sentence a state; of
-/// a place that a channel shows, stretches count in which s moves ten times what the readings leave
-/// open (turning points are shorter), of a speed those whose readings exclude s.
+/// a place that a channel shows, stretches count in which s moves ten times as far as one bound is
+/// wide (turning points are shorter), of a speed those whose readings exclude s. None of models
+/// with delays, plays or rate limits.
 [[nodiscard]] inline std::vector<std::string> creeping_words(identification_problem const& p) {
     using model_detail::shown_speed;
     std::vector<std::string> result;
+    if (p.model.has_memory()) return result;
     auto const& about = p.model.about;
-    for (auto const& [state, below] : model_detail::rounded_signs(p).find()) {
+    std::vector<signal> const open(about.inputs.size(),
+                                   sampled_signal({0.0}, {0.0}, interpolation::linear));
+    auto const model = bind(p.model, p.choice, open);
+    for (auto const& [state, below] : model_detail::rounded_signs(model, p.prior).find()) {
         std::size_t count = 0;
         std::string first;
         for (std::size_t c = 0; c < about.channels.size(); ++c) {
-            auto const what = model_detail::shows(p.model, c, state);
+            auto const what = model_detail::shows(model, c, state);
             if (what == shown_speed::no) continue;
             for (auto const& e : p.experiments) {
                 for (auto const& r : model_detail::rows_at_rest(e, c)) {
                     bool const creeps = what == shown_speed::place
-                                            ? below * (r.to - r.from) > 10 * width(r.value)
+                                            ? below * (r.to - r.from) > 10 * r.error
                                             : contains(r.value, 0.0) && below > mag(r.value);
                     if (!creeps || ++count > 1) continue;
                     first = about.channels[c].name + " stands still, as in " + e.name + " from " +
