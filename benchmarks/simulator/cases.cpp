@@ -82,13 +82,13 @@ void write_case(drawn_case const& c, std::mt19937_64& random, fs::path const& fo
 
 /// Every machine in turn, and of each one case in so many with nothing withheld.
 void draw(std::size_t count, unsigned seed, fs::path const& out) {
-    machine const robots[] = {lever(), rover(), arm()};
+    machine const robots[] = {lever(), rover(), arm(), turning_arm()};
     json labels = json::array();
     for (std::size_t k = 0; k < count; ++k) {
         std::mt19937_64 random{seed + 1000003 * k};
-        drawn_case c{"c" + std::to_string(100 + k), robots[k % 3], {}, {}};
+        drawn_case c{"c" + std::to_string(100 + k), robots[k % std::size(robots)], {}, {}};
         c.constants = c.robot.draw(random);
-        std::size_t const kind = k / 3 % (c.robot.kinds.size() + 1);
+        std::size_t const kind = k / std::size(robots) % (c.robot.kinds.size() + 1);
         if (kind < c.robot.kinds.size()) {
             auto const& drawn = c.robot.kinds[kind];
             double const size = uniform(random, drawn.lower, drawn.upper);
@@ -238,7 +238,7 @@ int score(fs::path const& out) {
 int main(int argc, char** argv) {
     CLI::App app{"Robots in MuJoCo whose model lacks something"};
     app.require_subcommand(1);
-    std::size_t count = 66;
+    std::size_t count = 88;
     unsigned seed = 1;
     std::string out;
     auto* const drawing = app.add_subcommand("draw", "models, data sets and labels");

@@ -366,4 +366,140 @@ prior = "[-0.1, 0.1] rad"
     return m;
 }
 
+machine turning_arm() {
+    machine m;
+    m.name = "turning_arm";
+    m.states = {"q1", "q2", "q3", "w1", "w2", "w3"};
+    m.inputs = {"u1", "u2", "u3"};
+    m.channels = {"q1", "q2", "q3"};
+    m.noise = {0.001, 0.001, 0.001};
+    m.step = {encoder, encoder, encoder};
+    m.constants = {"m3", "b1", "b2", "b3"};
+    m.model = R"toml(format = "sivid-model-1"
+name = "turning_arm"
+about = "a column that turns, a shoulder and an elbow; thin links hang down at 0"
+equations = """
+q1' = w1
+q2' = w2
+q3' = w3
+moment = m3*c3 + load*e
+near = J2 + m2*c2^2 + (m3 + load)*l^2
+far = J3 + m3*c3^2 + load*e^2
+bend = moment*l*cos(q3)
+h = moment*l*sin(q3)
+turn2 = near*sin(q2)*cos(q2) + far*sin(q2 + q3)*cos(q2 + q3) + moment*l*sin(2*q2 + q3)
+turn3 = far*sin(q2 + q3)*cos(q2 + q3) + moment*l*sin(q2)*cos(q2 + q3)
+fall = 9.81 [m/s^2]*moment*sin(q2 + q3)
+(J1 + near*sin(q2)^2 + far*sin(q2 + q3)^2 + 2*moment*l*sin(q2)*sin(q2 + q3))*w1' = u1 - b1*w1 - 2*w1*(turn2*w2 + turn3*w3)
+(rotor2 + near + far + 2*bend)*w2' + (far + bend)*w3' = u2 - b2*w2 + h*w3*(2*w2 + w3) + turn2*w1^2 - fall
+    - 9.81 [m/s^2]*(m2*c2 + (m3 + load)*l)*sin(q2)
+(far + bend)*w2' + (rotor3 + far)*w3' = u3 - b3*w3 - h*w2^2 + turn3*w1^2 - fall
+"""
+states = { q1 = "4 rad", q2 = "4 rad", q3 = "4 rad", w1 = "30 rad/s", w2 = "30 rad/s", w3 = "30 rad/s" }
+inputs = { u1 = "N m", u2 = "N m", u3 = "N m" }
+[constants]
+m2 = "0.8 kg"
+m3 = { value = "0.5 kg", prior = "[0.4, 0.6] kg" }
+b1 = { value = "0.2 N m s", prior = "[0, 0.4] N m s" }
+b2 = { value = "0.2 N m s", prior = "[0, 0.4] N m s" }
+b3 = { value = "0.1 N m s", prior = "[0, 0.3] N m s" }
+l = "0.3 m"
+c2 = "0.15 m"
+c3 = "0.15 m"
+e = "0.3 m"
+J1 = "0.1 kg m^2"
+J2 = "0.008 kg m^2"
+J3 = "0.005 kg m^2"
+rotor2 = "0.08 kg m^2"
+rotor3 = "0.03 kg m^2"
+load = "0 kg"
+[outputs]
+q1 = "q1"
+q2 = "q2"
+q3 = "q3"
+
+[effect.coulomb_1]
+constants.k = "[0, 0.5] N m"
+inputs = "u1 -= k*sign(w1)"
+[effect.coulomb_2]
+constants.k = "[0, 0.5] N m"
+inputs = "u2 -= k*sign(w2)"
+[effect.coulomb_3]
+constants.k = "[0, 0.5] N m"
+inputs = "u3 -= k*sign(w3)"
+[effect.armature_3]
+constants.J = "[0, 0.05] kg m^2"
+inputs = "rotor3 += J"
+[effect.payload]
+constants.m = "[0, 0.3] kg"
+inputs = "load += m"
+[effect.weak_motor_2]
+constants.k = [0, 0.5]
+inputs = "u2 -= k*u2"
+[effect.weak_motor_3]
+constants.k = [0, 0.5]
+inputs = "u3 -= k*u3"
+[effect.late_command_3]
+kind = "input_delay"
+of = "u3"
+prior = "[0, 0.1] s"
+[effect.late_sensor_3]
+kind = "sensor_latency"
+of = ["q3"]
+prior = "[0, 0.1] s"
+[effect.offset_2]
+constants.k = "[-0.5, 0.5] N m"
+inputs = "u2 += k"
+[effect.bias_3]
+kind = "sensor_bias"
+of = "q3"
+prior = "[-0.1, 0.1] rad"
+)toml";
+    m.parameters = R"("m3": {"prior": [0.4, 0.6], "unit": "kg"},
+    "b1": {"prior": [0, 0.4], "unit": "N m s"}, "b2": {"prior": [0, 0.4], "unit": "N m s"},
+    "b3": {"prior": [0, 0.3], "unit": "N m s"})";
+    m.mjcf = [](values const& c, withheld const& w) {
+        values all = c;
+        for (auto const* motor : {"weak_motor_2", "weak_motor_3"})
+            all.push_back(1 - (w.name == motor ? w.size : 0));
+        all.push_back(0.03 + (w.name == "armature_3" ? w.size : 0));
+        std::string const load = w.name == "payload" ? R"(<body pos="0 0 -0.3"><inertial pos="0 0 0"
+          mass="{payload}" diaginertia="1e-9 1e-9 1e-9"/></body>)"
+                                                     : "";
+        return filled(std::string(head) + R"(<worldbody><body>
+          <inertial pos="0 0 0" mass="1" diaginertia="0.1 0.1 0.1"/>
+          <joint name="q1" type="hinge" axis="0 0 1" damping="{1}" frictionloss="{coulomb_1}"/>
+          <body><inertial pos="0 0 -0.15" mass="0.8" diaginertia="0.008 0.008 1e-12"/>
+          <joint name="q2" type="hinge" axis="0 1 0" damping="{2}" armature="0.08"
+          frictionloss="{coulomb_2}"/>
+          <body pos="0 0 -0.3"><inertial pos="0 0 -0.15" mass="{0}" diaginertia="0.005 0.005 1e-12"/>
+          <joint name="q3" type="hinge" axis="0 1 0" damping="{3}" armature="{6}"
+          frictionloss="{coulomb_3}"/>)" +
+                          load +
+                          R"(</body></body></body></worldbody><actuator><motor joint="q1"/>
+          <motor joint="q2" gear="{4}"/><motor joint="q3" gear="{5}"/></actuator></mujoco>)",
+                      all, w);
+    };
+    m.draw = [](std::mt19937_64& r) {
+        return values{uniform(r, 0.45, 0.55), uniform(r, 0.1, 0.3), uniform(r, 0.1, 0.3),
+                      uniform(r, 0.05, 0.2)};
+    };
+    m.kinds = {{"coulomb_2", 0.1, 0.3},
+               {"coulomb_3", 0.05, 0.2},
+               {"armature_3", 0.01, 0.03},
+               {"payload", 0.03, 0.15},
+               {"weak_motor_3", 0.15, 0.35},
+               {"late_command_3", 0.02, 0.06, way::by_input, 2},
+               {"late_sensor_3", 0.02, 0.06, way::by_channel, 2}};
+    m.law = [](double t, values const& q, values const& w, values const& d) {
+        double const one = swing(t, d), two = 0.8 * std::sin(1.7 * d[1] * t + d[3]),
+                     three = 0.6 + 0.7 * std::sin(1.3 * d[1] * t + 2);
+        return values{held(4 * (one - q[0]) - 0.5 * w[0], 6),
+                      held(2 * std::sin(q[1]) + 8 * (three - q[1]) - 0.8 * w[1], 10),
+                      held(4 * (two - q[2]) - 0.3 * w[2], 5)};
+    };
+    m.start = {0.2, 0.6};
+    return m;
+}
+
 } // namespace simulator

@@ -69,6 +69,7 @@ struct machine {
 [[nodiscard]] machine lever();
 [[nodiscard]] machine arm();
 [[nodiscard]] machine rover();
+[[nodiscard]] machine turning_arm();
 
 } // namespace simulator
 
