@@ -41,11 +41,11 @@ driven moving_arm() {
             }};
 }
 driven moving_turning_arm() {
-    return {record_model(turning_arm()), {0, 0.3, 0.4, 0, 0, 0}, [](double t, values const& x) {
+    return {record_model(turning_arm()), {0, -0.8, 0.4, 0, 0, 0}, [](double t, values const& x) {
                 double const near = std::cos(x[1]), far = std::cos(x[1] + x[2]);
                 return values{4 * (0.8 * std::sin(0.9 * t) - x[0]) - x[3] + std::sin(3.3 * t) +
                                   0.8 * std::sin(7.1 * t + 1),
-                              9 * near + 3 * far + 6 * (0.4 * std::sin(1.3 * t + 1) + 0.3 - x[1]) -
+                              9 * near + 3 * far + 6 * (0.4 * std::sin(1.3 * t + 1) - 0.8 - x[1]) -
                                   x[4] + 2 * std::sin(3.1 * t) + 1.5 * std::sin(7 * t + 2),
                               3 * far + 3 * (0.5 * std::sin(1.9 * t) + 0.4 - x[2]) - 0.3 * x[5] +
                                   std::sin(4.3 * t + 1) + 0.8 * std::sin(9 * t)};
