@@ -205,7 +205,7 @@ int score(fs::path const& out) {
     auto const labels = json::parse(std::ifstream{out / "labels.json"});
     std::map<std::string, std::size_t> count;
     std::size_t proofs = 0, false_proofs = 0, predicted = 0, asked = 0;
-    std::printf("%-6s%-7s%-18s%-11s%-12s%s\n", "case", "robot", "withheld", "size", "verdict",
+    std::printf("%-6s%-13s%-18s%-11s%-12s%s\n", "case", "robot", "withheld", "size", "verdict",
                 "answer");
     for (auto const& label : labels) {
         std::string const id = label["id"];
@@ -213,7 +213,7 @@ int score(fs::path const& out) {
         judgement j;
         if (file) j = judge(label, json::parse(file)).result();
         std::string const name = label["withheld"];
-        std::printf("%-6s%-7s%-18s%-11.4g%-12s%s", id.c_str(),
+        std::printf("%-6s%-13s%-18s%-11.4g%-12s%s", id.c_str(),
                     label["robot"].get<std::string>().c_str(),
                     name.empty() ? "nothing" : name.c_str(), label["size"].get<double>(),
                     j.verdict.c_str(), j.said.c_str());
