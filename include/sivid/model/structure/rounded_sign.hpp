@@ -22,8 +22,8 @@ namespace sivid {
 
 namespace model_detail {
 
-/// The signs of states that a model rounds off near 0, as in w/sqrt(w^2 + s^2), tanh(w/s) and
-/// atan(w/s): the state, and s.
+/// The signs of states that a model rounds off near 0, as in w/sqrt(w^2 + s^2) and tanh(w/s): the
+/// state, and s. An arctangent is more often an angle.
 class rounded_signs {
 public:
     /// @param prior  of the model's unknown constants
@@ -39,9 +39,9 @@ public:
         for (std::size_t k = 0; k < g_.size(); ++k) {
             if (!needed[k]) continue;
             auto const& n = g_.nodes()[k];
-            auto const one = n.op == operation::div                               ? of_quotient(n)
-                             : n.op == operation::tanh || n.op == operation::atan ? of_argument(n.a)
-                                                                                  : std::nullopt;
+            auto const one = n.op == operation::div    ? of_quotient(n)
+                             : n.op == operation::tanh ? of_argument(n.a)
+                                                       : std::nullopt;
             if (one) found[one->first] = std::max(found[one->first], one->second);
         }
         return found;
