@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <string>
 #include <utility>
@@ -258,9 +259,14 @@ TEST_CASE("online, outliers, effects, checkpoints: the same files as any result"
 TEST_CASE("a diagnosis is written with its model, checked and shown anew") {
     served const s;
     auto const out = s.at("out");
+    auto const stated = text_of(s.data() + "/dataset.json");
+    std::ofstream(s.data() + "/dataset.json", std::ios::binary)
+        << "{ \"assumptions\": [\"clocks agree\"]," << stated.substr(stated.find('{') + 1);
     auto const r = run({"diagnose", s.data(), "--out", out, "--quiet", "--budget", "20"});
     CAPTURE(r.err);
     CHECK(r.code == 0);
+    for (auto const* file : {"/diagnosis.json", "/report.html", "/model/result.json"})
+        CHECK_THAT(text_of(out + file), ContainsSubstring("clocks agree"));
     CHECK_THAT(r.out, ContainsSubstring("gap none") && ContainsSubstring("ranges of all"));
     CHECK(files_in(out) ==
           std::set<std::string>{"diagnosis.json", "model", "report.html", "report.page.json"});

@@ -304,6 +304,8 @@ public:
         if (command_.job != nullptr) command_.job->watch_interrupts();
         auto found = diagnosed();
         if (!found) return done;
+        for (auto& words : assumptions_of(of_, data_, {}, {}, problem_))
+            found->result.assumptions.push_back(std::move(words));
         source_ = {seen_from(command_.out, command_.dataset), dataset_digest(command_.dataset),
                    problem_digest(problem_)};
         write(*found); // whatever happens to what follows
