@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -22,77 +23,59 @@ namespace sivid {
 
 namespace model_detail {
 
-/// The signs of states that a model rounds off near 0, as in w/sqrt(w^2 + s^2) and tanh(w/s): the
-/// state, and s. An arctangent is more often an angle.
-class rounded_signs {
-public:
-    /// @param prior  of the model's unknown constants
-    rounded_signs(bound_model const& m, box const& prior)
-        : m_{m},
-          g_{m.g},
-          ranges_{entire(), box(std::vector(m.state_count(), entire())), prior,
-                  box(std::vector(m.about.inputs.size(), entire()))} {}
+/// The state that a node is.
+[[nodiscard]] inline std::optional<std::size_t> state_at(graph const& g, node_id of) {
+    if (g[of].op != operation::state) return std::nullopt;
+    return static_cast<std::size_t>(g[of].index);
+}
 
-    [[nodiscard]] std::map<std::size_t, double> find() const {
-        std::map<std::size_t, double> found;
-        auto const needed = operands_of(g_, m_.rate);
-        for (std::size_t k = 0; k < g_.size(); ++k) {
-            if (!needed[k]) continue;
-            auto const& n = g_.nodes()[k];
-            auto const one = n.op == operation::div    ? of_quotient(n)
-                             : n.op == operation::tanh ? of_argument(n.a)
-                                                       : std::nullopt;
-            if (one) found[one->first] = std::max(found[one->first], one->second);
-        }
-        return found;
-    }
-
-private:
-    using sign = std::optional<std::pair<std::size_t, double>>;
-
-    static interval entire() {
-        constexpr double far = std::numeric_limits<double>::infinity();
-        return {-far, far};
-    }
-
-    [[nodiscard]] static sign made(node const& state, double below) {
-        if (state.op != operation::state || !(below > 0) || !std::isfinite(below)) return {};
-        return std::pair{static_cast<std::size_t>(state.index), below};
-    }
-    /// k x / sqrt(x^2 + s^2)
-    [[nodiscard]] sign of_quotient(node const& n) const {
-        auto const& root = g_[n.b];
-        if (root.op != operation::sqrt || g_[root.a].op != operation::add) return {};
-        auto const sum = g_[root.a];
-        for (auto const& [square, rest] : {std::pair{sum.a, sum.b}, std::pair{sum.b, sum.a}})
-            if (g_[square].op == operation::sqr && has_factor(n.a, g_[square].a))
-                return made(g_[g_[square].a], std::sqrt(largest(rest)));
-        return {};
-    }
-    [[nodiscard]] bool has_factor(node_id of, node_id x) const {
-        auto const& n = g_[of];
+/// The signs of states that a model rounds off near 0, as in k w/sqrt(w^2 + s^2) and tanh(w/s): the
+/// state, and s, the largest of the prior.
+[[nodiscard]] inline std::map<std::size_t, double> rounded_signs(bound_model const& m,
+                                                                 box const& prior) {
+    auto const& g = m.g;
+    std::map<std::size_t, double> found;
+    constexpr double far = std::numeric_limits<double>::infinity();
+    auto const all = [&](std::size_t n) { return box(std::vector(n, interval(-far, far))); };
+    auto const largest = [&](node_id of) { // infinite where it is not of constants alone
+        graph_range at(g, {of});
+        at.evaluate({{-far, far}, all(m.state_count()), prior, all(m.about.inputs.size())});
+        return mag(at.value(of));
+    };
+    auto const add = [&](node_id x, double below) {
+        auto const state = state_at(g, x);
+        if (state && below > 0 && std::isfinite(below))
+            found[*state] = std::max(found[*state], below);
+    };
+    std::function<bool(node_id, node_id)> const has_factor = [&](node_id of, node_id x) {
+        auto const& n = g[of];
         return of == x || (n.op == operation::neg && has_factor(n.a, x)) ||
                (n.op == operation::mul && (has_factor(n.a, x) || has_factor(n.b, x)));
+    };
+    auto const needed = operands_of(g, m.rate);
+    for (std::size_t k = 0; k < g.size(); ++k) {
+        auto const& n = g.nodes()[k];
+        if (!needed[k]) continue;
+        if (n.op == operation::div && g[n.b].op == operation::sqrt &&
+            g[g[n.b].a].op == operation::add) {
+            auto const& sum = g[g[n.b].a];
+            for (auto const& [square, rest] : {std::pair{sum.a, sum.b}, std::pair{sum.b, sum.a}})
+                if (g[square].op == operation::sqr && has_factor(n.a, g[square].a))
+                    add(g[square].a, std::sqrt(largest(rest)));
+        } else if (n.op == operation::tanh) { // of x/s, k x or x
+            auto const& of = g[n.a];
+            if (of.op == operation::div)
+                add(of.a, largest(of.b));
+            else if (of.op != operation::mul)
+                add(n.a, 1);
+            else if (state_at(g, of.a))
+                add(of.a, 1 / largest(of.b));
+            else
+                add(of.b, 1 / largest(of.a));
+        }
     }
-    /// x/s, k x or x
-    [[nodiscard]] sign of_argument(node_id of) const {
-        auto const& n = g_[of];
-        if (n.op == operation::div) return made(g_[n.a], largest(n.b));
-        if (n.op != operation::mul) return made(n, 1);
-        bool const left = g_[n.a].op == operation::state;
-        return made(g_[left ? n.a : n.b], 1 / largest(left ? n.b : n.a));
-    }
-    /// The largest magnitude of what is made of constants alone; else NaN.
-    [[nodiscard]] double largest(node_id of) const {
-        graph_range at(g_, {of});
-        at.evaluate(ranges_);
-        return mag(at.value(of));
-    }
-
-    bound_model const& m_;
-    graph const& g_;
-    leaf_ranges ranges_;
-};
+    return found;
+}
 
 /// Readings of one channel in a row that one value explains.
 struct resting_readings {
@@ -101,74 +84,48 @@ struct resting_readings {
     double error = 0; ///< the width of the widest
 };
 
-/// The longest such rows, at least two readings each.
+/// The longest such rows.
 [[nodiscard]] inline std::vector<resting_readings> rows_at_rest(experiment const& e,
                                                                 std::size_t channel) {
     std::vector<resting_readings> rows;
-    std::size_t readings = 0;
     for (auto const& m : sorted(e.measurements)) {
         if (m.channel != channel) continue;
-        if (readings > 0 && !disjoint(rows.back().value, m.bound)) {
-            rows.back().to = m.time;
-            rows.back().value = intersect(rows.back().value, m.bound);
-            rows.back().error = std::max(rows.back().error, width(m.bound));
-            ++readings;
-            continue;
+        if (rows.empty() || disjoint(rows.back().value, m.bound)) {
+            rows.push_back({m.time, m.time, m.bound, width(m.bound)});
+        } else {
+            auto& last = rows.back();
+            last = {last.from, m.time, intersect(last.value, m.bound),
+                    std::max(last.error, width(m.bound))};
         }
-        if (readings == 1) rows.pop_back();
-        rows.push_back({m.time, m.time, m.bound, width(m.bound)});
-        readings = 1;
     }
-    if (readings == 1) rows.pop_back();
     return rows;
-}
-
-/// What a channel shows of a state: it itself, the place whose rate it is, or something else.
-enum class shown_speed { itself, place, no };
-[[nodiscard]] inline shown_speed shows(bound_model const& m, std::size_t channel,
-                                       std::size_t state) {
-    auto const is = [&](node_id of) {
-        return m.g[of].op == operation::state && static_cast<std::size_t>(m.g[of].index) == state;
-    };
-    auto const& seen = m.g[m.observe[channel]];
-    if (is(m.observe[channel])) return shown_speed::itself;
-    bool const place =
-        seen.op == operation::state && is(m.rate[static_cast<std::size_t>(seen.index)]);
-    return place ? shown_speed::place : shown_speed::no;
 }
 
 } // namespace model_detail
 
 /// Where the data stand still and a sign that the model rounds off, w/sqrt(w^2 + s^2) in place of
-/// sign(w), lets it move by about s under a load that friction would hold. One sentence a state; of
-/// a place that a channel shows, stretches count in which s moves ten times as far as one bound is
-/// wide (turning points are shorter), of a speed those whose readings exclude s. None of models
-/// with delays, plays or rate limits.
+/// sign(w), lets it move by about s under a load that friction would hold. One sentence a state: of
+/// places that a channel shows, for stretches in which s moves ten times as far as one bound is
+/// wide (turning points are shorter). None of models with delays, plays or rate limits.
 [[nodiscard]] inline std::vector<std::string> creeping_words(identification_problem const& p) {
-    using model_detail::shown_speed;
     std::vector<std::string> result;
     if (p.model.has_memory()) return result;
     auto const& about = p.model.about;
     std::vector<signal> const open(about.inputs.size(),
                                    sampled_signal({0.0}, {0.0}, interpolation::linear));
     auto const model = bind(p.model, p.choice, open);
-    for (auto const& [state, below] : model_detail::rounded_signs(model, p.prior).find()) {
+    for (auto const& [state, below] : model_detail::rounded_signs(model, p.prior)) {
         std::size_t count = 0;
         std::string first;
         for (std::size_t c = 0; c < about.channels.size(); ++c) {
-            auto const what = model_detail::shows(model, c, state);
-            if (what == shown_speed::no) continue;
-            for (auto const& e : p.experiments) {
-                for (auto const& r : model_detail::rows_at_rest(e, c)) {
-                    bool const creeps = what == shown_speed::place
-                                            ? below * (r.to - r.from) > 10 * r.error
-                                            : contains(r.value, 0.0) && below > mag(r.value);
-                    if (!creeps || ++count > 1) continue;
-                    first = about.channels[c].name + " stands still, as in " + e.name + " from " +
-                            nearest_text(r.from, 4) + " to " + nearest_text(r.to, 4) + " " +
-                            about.time_unit;
-                }
-            }
+            auto const place = model_detail::state_at(model.g, model.observe[c]);
+            if (!place || model_detail::state_at(model.g, model.rate[*place]) != state) continue;
+            for (auto const& e : p.experiments)
+                for (auto const& r : model_detail::rows_at_rest(e, c))
+                    if (below * (r.to - r.from) > 10 * r.error && ++count == 1)
+                        first = about.channels[c].name + " stands still, as in " + e.name +
+                                " from " + nearest_text(r.from, 4) + " to " +
+                                nearest_text(r.to, 4) + " " + about.time_unit;
         }
         if (count == 0) continue;
         auto const& s = about.states[state];
